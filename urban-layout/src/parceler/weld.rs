@@ -1,0 +1,180 @@
+//! The pieces as one mesh: shared vertices, no vertex on a neighbour's edge.
+//!
+//! Pieces are cut one by one, so a dividing line may end on an edge whose
+//! other side has been cut already. The mesh numbers the points, puts every
+//! point that lies on an edge into that edge, and so makes neighbours share
+//! their boundary vertex by vertex.
+
+use std::collections::BTreeMap;
+
+use geo_types::Coord;
+
+use super::geom::{area, dist, is_simple, nearest_on, lerp, P};
+use super::search::Part;
+use super::shape::Shape;
+use super::{ParcelOptions, Piece, PieceKind};
+
+/// Pieces over a common list of points.
+#[derive(Clone, Debug)]
+pub(super) struct Mesh {
+    pub(super) points: Vec<P>,
+    /// Rings of point numbers; the first points are the block's own vertices.
+    pub(super) rings: Vec<Vec<usize>>,
+    /// For each ring, which of its edges give access.
+    pub(super) front: Vec<Vec<bool>>,
+    pub(super) green: Vec<bool>,
+    /// How many points are the block's own.
+    pub(super) own: usize,
+    eps: f64,
+}
+
+impl Mesh {
+    /// Numbers the points of the parts and puts in the missing vertices.
+    pub(super) fn new(block: &Shape, parts: &[Part], options: &ParcelOptions) -> Self {
+        let size = block.ring.iter().fold(options.width, |m, p| m.max(p.x.abs()).max(p.y.abs()));
+        let mut mesh = Self {
+            points: block.ring.clone(),
+            rings: Vec::new(),
+            front: Vec::new(),
+            green: Vec::new(),
+            own: block.len(),
+            eps: 1e-10 * size,
+        };
+        let key = |p: P| ((p.x + 0.0).to_bits(), (p.y + 0.0).to_bits());
+        let mut number: BTreeMap<(u64, u64), usize> = BTreeMap::new();
+        for (i, &p) in block.ring.iter().enumerate() {
+            number.entry(key(p)).or_insert(i);
+        }
+        for part in parts {
+            let mut ring = Vec::with_capacity(part.shape.len());
+            for &p in &part.shape.ring {
+                let next = mesh.points.len();
+                let id = *number.entry(key(p)).or_insert(next);
+                if id == next {
+                    mesh.points.push(p);
+                }
+                ring.push(id);
+            }
+            mesh.rings.push(ring);
+            mesh.front.push(part.shape.front.clone());
+            mesh.green.push(part.green);
+        }
+        mesh.weld();
+        mesh
+    }
+
+    /// Puts every point that lies on an edge into that edge.
+    pub(super) fn weld(&mut self) {
+        let eps = self.eps;
+        let mut order: Vec<usize> = (0..self.points.len()).collect();
+        order.sort_by(|&i, &j| {
+            let (a, b) = (self.points[i], self.points[j]);
+            a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(i.cmp(&j))
+        });
+        let xs: Vec<f64> = order.iter().map(|&i| self.points[i].x).collect();
+        for r in 0..self.rings.len() {
+            let (ring, front) = (self.rings[r].clone(), self.front[r].clone());
+            let n = ring.len();
+            let (mut out, mut flags) = (Vec::with_capacity(n), Vec::with_capacity(n));
+            for i in 0..n {
+                let (ia, ib) = (ring[i], ring[(i + 1) % n]);
+                let (a, b) = (self.points[ia], self.points[ib]);
+                out.push(ia);
+                flags.push(front[i]);
+                let (x0, x1) = (a.x.min(b.x) - eps, a.x.max(b.x) + eps);
+                let (y0, y1) = (a.y.min(b.y) - eps, a.y.max(b.y) + eps);
+                let from = xs.partition_point(|&x| x < x0);
+                let mut on: Vec<(f64, usize)> = Vec::new();
+                for k in from..order.len() {
+                    if xs[k] > x1 {
+                        break;
+                    }
+                    let id = order[k];
+                    let q = self.points[id];
+                    if id == ia || id == ib || q.y < y0 || q.y > y1 {
+                        continue;
+                    }
+                    let t = nearest_on(a, b, q);
+                    if t > 0.0 && t < 1.0 && dist(lerp(a, b, t), q) <= eps {
+                        on.push((t, id));
+                    }
+                }
+                on.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
+                for (_, id) in on {
+                    if !ring.contains(&id) {
+                        out.push(id);
+                        flags.push(front[i]);
+                    }
+                }
+            }
+            self.rings[r] = out;
+            self.front[r] = flags;
+        }
+    }
+
+    pub(super) fn ring(&self, r: usize) -> Vec<P> {
+        self.rings[r].iter().map(|&i| self.points[i]).collect()
+    }
+
+    pub(super) fn shape(&self, r: usize) -> Shape {
+        Shape { ring: self.ring(r), front: self.front[r].clone() }
+    }
+
+    /// A piece is a parcel exactly when it has the hard frontage, unless the
+    /// search has chosen to leave it green.
+    pub(super) fn settle_kinds(&mut self, options: &ParcelOptions) {
+        for r in 0..self.rings.len() {
+            if self.shape(r).frontage() < options.min_frontage {
+                self.green[r] = true;
+            }
+        }
+    }
+
+    /// Whether the pieces are simple rings that add up to the block.
+    pub(super) fn holds(&self, block: &Shape) -> bool {
+        let total = block.area();
+        let mut sum = 0.0;
+        for r in 0..self.rings.len() {
+            let ring = self.ring(r);
+            let a = area(&ring);
+            if a <= 0.0 || !is_simple(&ring) {
+                return false;
+            }
+            sum += a;
+        }
+        // Every inner edge has its twin, every other edge is the block's.
+        let mut edges: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+        for ring in &self.rings {
+            for i in 0..ring.len() {
+                if edges.insert((ring[i], ring[(i + 1) % ring.len()]), 0).is_some() {
+                    return false;
+                }
+            }
+        }
+        let size = self.points.iter().fold(1.0, |m: f64, p| m.max(p.x.abs()).max(p.y.abs()));
+        let open: f64 = edges
+            .keys()
+            .filter(|&&(a, b)| !edges.contains_key(&(b, a)))
+            .map(|&(a, b)| dist(self.points[a], self.points[b]))
+            .sum();
+        let outline: f64 = (0..block.len()).map(|i| dist(block.edge(i).0, block.edge(i).1)).sum();
+        (sum - total).abs() <= 1e-10 * total + 1e-12 * size * size
+            && (open - outline).abs() <= 1e-9 * outline
+    }
+
+    /// The pieces in the caller's frame; the block's own vertices come back
+    /// to the bit.
+    pub(super) fn pieces(&self, own: &[Coord<f64>], origin: Coord<f64>) -> Vec<Piece> {
+        self.rings
+            .iter()
+            .zip(&self.green)
+            .map(|(ring, &green)| Piece {
+                ring: ring
+                    .iter()
+                    .map(|&i| if i < self.own { own[i] } else { self.points[i] + origin })
+                    .collect(),
+                kind: if green { PieceKind::Green } else { PieceKind::Parcel },
+            })
+            .collect()
+    }
+}
