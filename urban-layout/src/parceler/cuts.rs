@@ -17,7 +17,10 @@ pub(super) fn cuts(shape: &Shape, options: &ParcelOptions) -> Vec<(Shape, Shape)
     offsets(shape, &chains, options, &mut paths);
     reflex(shape, options, &mut paths);
     across(shape, &chains, options, &mut paths);
-    paths.iter().filter_map(|p| shape.cut(p.from, &p.inner, p.to)).collect()
+    paths
+        .iter()
+        .filter_map(|p| shape.cut(p.from, &p.inner, p.to))
+        .collect()
 }
 
 fn step(options: &ParcelOptions) -> f64 {
@@ -30,7 +33,10 @@ fn spines(shape: &Shape, chains: &[Chain], options: &ParcelOptions, out: &mut Ve
     let snap = options.snap();
     for i in 0..chains.len() {
         for j in i + 1..chains.len() {
-            let (a, b) = (shape.chain_points(&chains[i]), shape.chain_points(&chains[j]));
+            let (a, b) = (
+                shape.chain_points(&chains[i]),
+                shape.chain_points(&chains[j]),
+            );
             let level = Level::Between(Base::new(a.clone(), true), Base::new(b.clone(), true));
             for path in level_lines(shape, &level, step(options), snap) {
                 corner_variants(shape, &path, [&a, &b], options, out);
@@ -52,7 +58,11 @@ fn corner_variants(
 ) {
     let snap = options.snap();
     for backwards in [false, true] {
-        let (from, to) = if backwards { (path.to, path.from) } else { (path.from, path.to) };
+        let (from, to) = if backwards {
+            (path.to, path.from)
+        } else {
+            (path.from, path.to)
+        };
         let mut line: Vec<P> = vec![from.at];
         if backwards {
             line.extend(path.inner.iter().rev());
@@ -78,9 +88,15 @@ fn corner_variants(
                     skip += 1.0;
                 }
                 let Some((rest, foot)) = found else { continue };
-                let Some(mark) = locate(shape, foot, snap) else { continue };
+                let Some(mark) = locate(shape, foot, snap) else {
+                    continue;
+                };
                 let inner = rest[..rest.len() - 1].to_vec();
-                out.push(Path { from: mark, inner, to });
+                out.push(Path {
+                    from: mark,
+                    inner,
+                    to,
+                });
             }
         }
     }
@@ -145,7 +161,11 @@ fn reflex(shape: &Shape, options: &ParcelOptions, out: &mut Vec<Path>) {
     let n = shape.len();
     let mut corners: Vec<(f64, usize)> = Vec::new();
     for i in 0..n {
-        let (p, q, r) = (shape.ring[(i + n - 1) % n], shape.ring[i], shape.ring[(i + 1) % n]);
+        let (p, q, r) = (
+            shape.ring[(i + n - 1) % n],
+            shape.ring[i],
+            shape.ring[(i + 1) % n],
+        );
         let turn = angle(q - p, r - q);
         if turn < -0.35 {
             corners.push((turn, i));
@@ -153,9 +173,19 @@ fn reflex(shape: &Shape, options: &ParcelOptions, out: &mut Vec<Path>) {
     }
     corners.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     for &(_, i) in corners.iter().take(5) {
-        let (p, q, r) = (shape.ring[(i + n - 1) % n], shape.ring[i], shape.ring[(i + 1) % n]);
-        let (Some(u), Some(v)) = (unit(q - p), unit(q - r)) else { continue };
-        let from = Mark { edge: i, vertex: true, at: q };
+        let (p, q, r) = (
+            shape.ring[(i + n - 1) % n],
+            shape.ring[i],
+            shape.ring[(i + 1) % n],
+        );
+        let (Some(u), Some(v)) = (unit(q - p), unit(q - r)) else {
+            continue;
+        };
+        let from = Mark {
+            edge: i,
+            vertex: true,
+            at: q,
+        };
         let mut dirs = vec![u, v, left(r - q), left(q - p)];
         dirs.extend(unit(u + v));
         for d in dirs {
@@ -163,7 +193,11 @@ fn reflex(shape: &Shape, options: &ParcelOptions, out: &mut Vec<Path>) {
                 continue;
             }
             if let Some(to) = shoot(shape, from, d, options.snap()) {
-                out.push(Path { from, inner: Vec::new(), to });
+                out.push(Path {
+                    from,
+                    inner: Vec::new(),
+                    to,
+                });
             }
         }
     }
@@ -187,7 +221,11 @@ fn across(shape: &Shape, chains: &[Chain], options: &ParcelOptions, out: &mut Ve
                 continue;
             }
             if let Some(to) = shoot(shape, from, dir, options.snap()) {
-                out.push(Path { from, inner: Vec::new(), to });
+                out.push(Path {
+                    from,
+                    inner: Vec::new(),
+                    to,
+                });
             }
         }
     }

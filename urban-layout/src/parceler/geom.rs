@@ -153,7 +153,11 @@ pub(super) fn is_simple(ring: &[P]) -> bool {
             if (i + 1) % n == j || (j + 1) % n == i {
                 // Neighbours share one end: they overlap only when one folds
                 // back over the other.
-                let (s, x, y) = if (i + 1) % n == j { (b, a, d) } else { (a, b, c) };
+                let (s, x, y) = if (i + 1) % n == j {
+                    (b, a, d)
+                } else {
+                    (a, b, c)
+                };
                 if n > 3 && cross(x - s, y - s) == 0.0 && dot(x - s, y - s) > 0.0 {
                     return false;
                 }

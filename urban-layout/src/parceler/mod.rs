@@ -41,7 +41,12 @@ pub struct ParcelOptions {
 
 impl Default for ParcelOptions {
     fn default() -> Self {
-        Self { depth: 30.0, width: 18.0, min_frontage: 3.0, good_frontage: 10.0 }
+        Self {
+            depth: 30.0,
+            width: 18.0,
+            min_frontage: 3.0,
+            good_frontage: 10.0,
+        }
     }
 }
 
@@ -74,11 +79,20 @@ pub struct Piece {
 /// Divides a block into parcels, and green land where no street reaches.
 pub fn parcel(block: &Block, options: &ParcelOptions) -> Vec<Piece> {
     let options = &sane(options);
-    let Some((shape, origin)) = local(block) else { return Vec::new() };
+    let Some((shape, origin)) = local(block) else {
+        return Vec::new();
+    };
     let whole = || {
         let reach = shape.frontage() >= options.min_frontage;
-        let kind = if reach { PieceKind::Parcel } else { PieceKind::Green };
-        vec![Piece { ring: block.ring.clone(), kind }]
+        let kind = if reach {
+            PieceKind::Parcel
+        } else {
+            PieceKind::Green
+        };
+        vec![Piece {
+            ring: block.ring.clone(),
+            kind,
+        }]
     };
     if !geom::is_simple(&shape.ring) || shape.area() <= 0.0 {
         return whole();
@@ -110,10 +124,22 @@ fn sane(options: &ParcelOptions) -> ParcelOptions {
 /// The block in its own frame, without repeated vertices.
 fn local(block: &Block) -> Option<(Shape, Coord<f64>)> {
     let n = block.ring.len();
-    if n < 3 || block.front.len() != n || block.ring.iter().any(|c| !(c.x.is_finite() && c.y.is_finite())) {
+    if n < 3
+        || block.front.len() != n
+        || block
+            .ring
+            .iter()
+            .any(|c| !(c.x.is_finite() && c.y.is_finite()))
+    {
         return None;
     }
     let origin = block.ring[0];
     let ring: Vec<_> = block.ring.iter().map(|&c| c - origin).collect();
-    Some((Shape { ring, front: block.front.clone() }, origin))
+    Some((
+        Shape {
+            ring,
+            front: block.front.clone(),
+        },
+        origin,
+    ))
 }

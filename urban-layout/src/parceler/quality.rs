@@ -59,8 +59,18 @@ pub(super) fn measure(ring: &[P], front: &[bool], scratch: &mut Scratch) -> Qual
     clean(ring, &mut scratch.clean);
     let deviation = deviation(&scratch.clean);
     let (box_area, aspect) = smallest_box(scratch);
-    let ratio = if area > 0.0 { (box_area / area).max(1.0) } else { f64::INFINITY };
-    Quality { area, deviation, ratio, aspect, frontage }
+    let ratio = if area > 0.0 {
+        (box_area / area).max(1.0)
+    } else {
+        f64::INFINITY
+    };
+    Quality {
+        area,
+        deviation,
+        ratio,
+        aspect,
+        frontage,
+    }
 }
 
 /// Copies the ring without its straight vertices.
@@ -146,9 +156,16 @@ fn hull(points: &mut [P], out: &mut Vec<P>) {
     for pass in 0..2 {
         let start = out.len();
         for k in 0..points.len() {
-            let q = if pass == 0 { points[k] } else { points[points.len() - 1 - k] };
+            let q = if pass == 0 {
+                points[k]
+            } else {
+                points[points.len() - 1 - k]
+            };
             while out.len() >= start + 2
-                && cross(out[out.len() - 1] - out[out.len() - 2], q - out[out.len() - 1]) <= 0.0
+                && cross(
+                    out[out.len() - 1] - out[out.len() - 2],
+                    q - out[out.len() - 1],
+                ) <= 0.0
             {
                 out.pop();
             }
@@ -172,7 +189,10 @@ pub(super) fn cost(q: &Quality, options: &ParcelOptions) -> f64 {
         return 1e3;
     }
     let mut c = 0.0;
-    let (x, y) = (q.deviation / BAD_DEVIATION, (q.ratio - 1.0) / (BAD_RATIO - 1.0));
+    let (x, y) = (
+        q.deviation / BAD_DEVIATION,
+        (q.ratio - 1.0) / (BAD_RATIO - 1.0),
+    );
     c += 0.25 * x.min(1.0).powi(2) + 0.25 * y.min(1.0).powi(2);
     // A ramp just below each limit keeps a parcel from resting on it.
     c += 0.3 * ((x - 0.85) / 0.15).clamp(0.0, 1.0) + 0.3 * ((y - 0.85) / 0.15).clamp(0.0, 1.0);
@@ -205,7 +225,13 @@ mod tests {
 
     #[test]
     fn a_rectangle_is_perfect() {
-        let ring = [pt(0., 0.), pt(9., 0.), pt(18., 0.), pt(18., 30.), pt(0., 30.)];
+        let ring = [
+            pt(0., 0.),
+            pt(9., 0.),
+            pt(18., 0.),
+            pt(18., 30.),
+            pt(0., 30.),
+        ];
         let front = [true, true, false, false, false];
         let q = measure(&ring, &front, &mut Scratch::default());
         assert!(q.deviation < 1e-12 && (q.ratio - 1.0).abs() < 1e-12);
@@ -223,7 +249,14 @@ mod tests {
 
     #[test]
     fn a_reflex_right_angle_is_right() {
-        let l = [pt(0., 0.), pt(4., 0.), pt(4., 2.), pt(2., 2.), pt(2., 4.), pt(0., 4.)];
+        let l = [
+            pt(0., 0.),
+            pt(4., 0.),
+            pt(4., 2.),
+            pt(2., 2.),
+            pt(2., 4.),
+            pt(0., 4.),
+        ];
         let q = measure(&l, &[true; 6], &mut Scratch::default());
         assert!(q.deviation < 1e-12 && (q.ratio - 16.0 / 12.0).abs() < 1e-12);
     }

@@ -84,7 +84,11 @@ impl Row {
         let mut out = [0.0; 2];
         for (k, slant) in out.iter_mut().enumerate() {
             // Walk away from the front's end along the ring.
-            let (o, s) = if k == 0 { (0, 0.0) } else { (self.m, self.length()) };
+            let (o, s) = if k == 0 {
+                (0, 0.0)
+            } else {
+                (self.m, self.length())
+            };
             let from = self.shape.ring[o];
             let mut i = o;
             let mut to = from;
@@ -173,12 +177,12 @@ impl Row {
             }
             let near = |i: usize| i == k || (whole && (i + 1) % n == k);
             // A snapped chord is no longer the ray: look again.
-            let clear = (0..n).filter(|&i| !near(i) && i != mark.edge && (i + 1) % n != mark.edge).all(
-                |i| {
+            let clear = (0..n)
+                .filter(|&i| !near(i) && i != mark.edge && (i + 1) % n != mark.edge)
+                .all(|i| {
                     let (a, b) = self.shape.edge(i);
                     !super::geom::meet(pf, mark.at, a, b)
-                },
-            );
+                });
             if !clear || mark.edge <= self.m {
                 return None;
             }
@@ -192,13 +196,23 @@ impl Row {
     /// The rung before the first parcel: the front's start.
     pub(super) fn first(&self) -> Rung {
         let p = self.shape.ring[0];
-        Rung { uf: 0.0, pf: p, ub: self.shape.len() as f64, pb: p }
+        Rung {
+            uf: 0.0,
+            pf: p,
+            ub: self.shape.len() as f64,
+            pb: p,
+        }
     }
 
     /// The rung after the last parcel: the front's end.
     pub(super) fn last(&self) -> Rung {
         let p = self.shape.ring[self.m];
-        Rung { uf: self.m as f64, pf: p, ub: self.m as f64, pb: p }
+        Rung {
+            uf: self.m as f64,
+            pf: p,
+            ub: self.m as f64,
+            pb: p,
+        }
     }
 
     /// Whether rung `b` may follow rung `a`.
@@ -290,7 +304,10 @@ impl Row {
         let mut out = Vec::with_capacity(rungs.len() + 1);
         for r in rungs.iter().copied().chain(std::iter::once(self.last())) {
             self.parcel(&last, &r, bench);
-            out.push(Shape { ring: bench.ring.clone(), front: bench.front.clone() });
+            out.push(Shape {
+                ring: bench.ring.clone(),
+                front: bench.front.clone(),
+            });
             last = r;
         }
         out
@@ -324,7 +341,9 @@ impl Row {
             }
         }
         for (n, middle, fan) in tries {
-            let Some(rungs) = self.spread(n, middle, fan, w) else { continue };
+            let Some(rungs) = self.spread(n, middle, fan, w) else {
+                continue;
+            };
             let limit = best.as_ref().map_or(f64::INFINITY, |b| b.0);
             if let Some(c) = self.total(&rungs, options, bench, limit) {
                 let clean = c < 0.04 * (n as f64);

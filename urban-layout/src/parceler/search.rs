@@ -50,10 +50,16 @@ pub(super) fn plan(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) ->
     let mut parts = Vec::new();
     for leaf in &best.leaves {
         match leaf {
-            Leaf::Whole(shape, green) => parts.push(Part { shape: shape.clone(), green: *green }),
+            Leaf::Whole(shape, green) => parts.push(Part {
+                shape: shape.clone(),
+                green: *green,
+            }),
             Leaf::Row(row, rungs) => {
                 for shape in row.shapes(rungs, bench) {
-                    parts.push(Part { shape, green: false });
+                    parts.push(Part {
+                        shape,
+                        green: false,
+                    });
                 }
             }
         }
@@ -64,7 +70,10 @@ pub(super) fn plan(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) ->
 /// The shape without structural cuts: one parcel, one row, or green.
 fn quick(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) -> Plan {
     let area = shape.area();
-    let green = Plan { cost: green_cost(area, options), leaves: vec![Leaf::Whole(shape.clone(), true)] };
+    let green = Plan {
+        cost: green_cost(area, options),
+        leaves: vec![Leaf::Whole(shape.clone(), true)],
+    };
     if shape.frontage() < options.min_frontage {
         return green;
     }
@@ -73,7 +82,10 @@ fn quick(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) -> Plan {
     let q = measure(&shape.ring, &shape.front, &mut bench.scratch);
     let c = cost(&q, options);
     if c < best.cost {
-        best = Plan { cost: c, leaves: vec![Leaf::Whole(shape.clone(), false)] };
+        best = Plan {
+            cost: c,
+            leaves: vec![Leaf::Whole(shape.clone(), false)],
+        };
     }
     if area < 0.9 * options.depth * options.width {
         return best;
@@ -84,10 +96,15 @@ fn quick(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) -> Plan {
         if clean(&best, area, options) {
             break;
         }
-        let Some(row) = Row::new(shape, chain, options) else { continue };
+        let Some(row) = Row::new(shape, chain, options) else {
+            continue;
+        };
         if let Some((c, rungs)) = row.regular(options, bench) {
             if c < best.cost {
-                best = Plan { cost: c, leaves: vec![Leaf::Row(Box::new(row), rungs)] };
+                best = Plan {
+                    cost: c,
+                    leaves: vec![Leaf::Row(Box::new(row), rungs)],
+                };
             }
         }
     }
@@ -137,7 +154,10 @@ fn deepen(
         if pl.cost + pr.cost < best.cost {
             let mut leaves = pl.leaves;
             leaves.extend(pr.leaves);
-            best = Plan { cost: pl.cost + pr.cost, leaves };
+            best = Plan {
+                cost: pl.cost + pr.cost,
+                leaves,
+            };
         }
         if clean(&best, area, options) {
             break;

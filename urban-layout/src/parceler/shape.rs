@@ -67,11 +67,23 @@ impl Shape {
         let (a, b) = self.edge(edge);
         let (da, db) = (dist(a, at), dist(b, at));
         if da <= snap && da <= db {
-            Mark { edge, vertex: true, at: a }
+            Mark {
+                edge,
+                vertex: true,
+                at: a,
+            }
         } else if db <= snap {
-            Mark { edge: (edge + 1) % self.len(), vertex: true, at: b }
+            Mark {
+                edge: (edge + 1) % self.len(),
+                vertex: true,
+                at: b,
+            }
         } else {
-            Mark { edge, vertex: false, at }
+            Mark {
+                edge,
+                vertex: false,
+                at,
+            }
         }
     }
 
@@ -215,7 +227,13 @@ impl Shape {
         // Turn at each inner vertex over a window, so that a rounded corner
         // counts as one corner and a gentle curve as none.
         let turns: Vec<f64> = (0..=count)
-            .map(|k| if k == 0 || k == count { 0.0 } else { arc.turn(arc.s[k], r) })
+            .map(|k| {
+                if k == 0 || k == count {
+                    0.0
+                } else {
+                    arc.turn(arc.s[k], r)
+                }
+            })
             .collect();
         let mut cuts: Vec<usize> = Vec::new();
         let limit = 35f64.to_radians();
@@ -251,14 +269,20 @@ impl Shape {
                 stack.push((i, i + half));
                 continue;
             }
-            out.push(Chain { start: (start + i) % n, count: j - i, length });
+            out.push(Chain {
+                start: (start + i) % n,
+                count: j - i,
+                length,
+            });
         }
         debug_assert!(total >= 0.0);
     }
 
     /// The points of a chain, `count + 1` of them.
     pub(super) fn chain_points(&self, c: &Chain) -> Vec<P> {
-        (0..=c.count).map(|k| self.ring[(c.start + k) % self.len()]).collect()
+        (0..=c.count)
+            .map(|k| self.ring[(c.start + k) % self.len()])
+            .collect()
     }
 }
 
@@ -277,7 +301,9 @@ pub(super) struct Arc {
 
 impl Arc {
     pub(super) fn new(shape: &Shape, start: usize, count: usize) -> Self {
-        let p: Vec<P> = (0..=count).map(|k| shape.ring[(start + k) % shape.len()]).collect();
+        let p: Vec<P> = (0..=count)
+            .map(|k| shape.ring[(start + k) % shape.len()])
+            .collect();
         let mut s = vec![0.0];
         for w in p.windows(2) {
             s.push(s[s.len() - 1] + dist(w[0], w[1]));
@@ -291,9 +317,16 @@ impl Arc {
 
     /// Segment and point at arc length `s`, clamped to the ends.
     pub(super) fn at(&self, s: f64) -> (usize, P) {
-        let k = self.s.partition_point(|&v| v <= s).clamp(1, self.p.len() - 1);
+        let k = self
+            .s
+            .partition_point(|&v| v <= s)
+            .clamp(1, self.p.len() - 1);
         let (a, b) = (self.s[k - 1], self.s[k]);
-        let t = if b > a { ((s - a) / (b - a)).clamp(0.0, 1.0) } else { 0.0 };
+        let t = if b > a {
+            ((s - a) / (b - a)).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
         (k - 1, lerp(self.p[k - 1], self.p[k], t))
     }
 
@@ -307,7 +340,10 @@ impl Arc {
     fn turn_wrapped(&self, s: f64, r: f64) -> f64 {
         let l = self.total();
         let q = self.at(s).1;
-        let (a, b) = (self.at((s - r).rem_euclid(l)).1, self.at((s + r).rem_euclid(l)).1);
+        let (a, b) = (
+            self.at((s - r).rem_euclid(l)).1,
+            self.at((s + r).rem_euclid(l)).1,
+        );
         angle(q - a, b - q)
     }
 
@@ -345,11 +381,18 @@ mod tests {
         assert!((l.frontage() + r.frontage() - s.frontage()).abs() < 1e-9);
         assert!(is_simple_both(&l, &r));
         // Through a vertex, and to one.
-        let (l, r) = s.cut(s.mark(0, pt(0.01, 0.), 0.1), &[], s.mark(2, pt(39.99, 30.), 0.1))
+        let (l, r) = s
+            .cut(
+                s.mark(0, pt(0.01, 0.), 0.1),
+                &[],
+                s.mark(2, pt(39.99, 30.), 0.1),
+            )
             .expect("the diagonal");
         assert_eq!((l.len(), r.len()), (3, 3));
         // Along the boundary: no cut.
-        assert!(s.cut(s.mark(0, pt(0., 0.), 0.1), &[], s.mark(0, pt(20., 0.), 0.1)).is_none());
+        assert!(s
+            .cut(s.mark(0, pt(0., 0.), 0.1), &[], s.mark(0, pt(20., 0.), 0.1))
+            .is_none());
     }
 
     fn is_simple_both(l: &Shape, r: &Shape) -> bool {
@@ -373,7 +416,10 @@ mod tests {
                 pt(50.0 * a.cos(), 50.0 * a.sin())
             })
             .collect();
-        let s = Shape { front: vec![true; 60], ring };
+        let s = Shape {
+            front: vec![true; 60],
+            ring,
+        };
         assert!(s.chains(&ParcelOptions::default()).len() >= 3);
     }
 }

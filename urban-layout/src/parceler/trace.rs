@@ -88,7 +88,10 @@ pub(super) fn level_lines(shape: &Shape, level: &Level, step: f64, snap: f64) ->
     let roots = roots(shape, level, step);
     let mut out: Vec<Path> = Vec::new();
     for &(edge, q) in &roots {
-        if out.iter().any(|p| dist(p.to.at, q) < 0.5 * step || dist(p.from.at, q) < 0.5 * step) {
+        if out
+            .iter()
+            .any(|p| dist(p.to.at, q) < 0.5 * step || dist(p.from.at, q) < 0.5 * step)
+        {
             continue;
         }
         let from = shape.mark(edge, q, snap);
@@ -160,7 +163,8 @@ fn follow(shape: &Shape, level: &Level, from: Mark, step: f64) -> Option<(Vec<P>
         // Does this step leave the shape?
         let mut exit: Option<(f64, usize)> = None;
         for e in 0..shape.len() {
-            let own = k == 0 && (e == from.edge || (from.vertex && (e + 1) % shape.len() == from.edge));
+            let own =
+                k == 0 && (e == from.edge || (from.vertex && (e + 1) % shape.len() == from.edge));
             if own {
                 continue;
             }
@@ -187,7 +191,10 @@ fn start_heading(shape: &Shape, level: &Level, from: Mark, step: f64) -> Option<
     let probe = 0.4 * step;
     let mut best: Option<(f64, P)> = None;
     for k in 0..48 {
-        let d = super::geom::turned(P { x: 1.0, y: 0.0 }, f64::from(k) * std::f64::consts::TAU / 48.0);
+        let d = super::geom::turned(
+            P { x: 1.0, y: 0.0 },
+            f64::from(k) * std::f64::consts::TAU / 48.0,
+        );
         let q = from.at + d * probe;
         if inside(&shape.ring, q) {
             let v = level.value(q).0.abs();
@@ -217,7 +224,11 @@ pub(super) fn simplify(from: P, inner: &[P], to: P, tolerance: f64) -> Vec<P> {
         let l = norm(d);
         let mut worst = (tolerance, 0);
         for k in i + 1..j {
-            let h = if l > 0.0 { cross(d, all[k] - all[i]).abs() / l } else { dist(all[i], all[k]) };
+            let h = if l > 0.0 {
+                cross(d, all[k] - all[i]).abs() / l
+            } else {
+                dist(all[i], all[k])
+            };
             if h > worst.0 {
                 worst = (h, k);
             }
@@ -228,7 +239,10 @@ pub(super) fn simplify(from: P, inner: &[P], to: P, tolerance: f64) -> Vec<P> {
             stack.push((worst.1, j));
         }
     }
-    (1..all.len() - 1).filter(|&k| keep[k]).map(|k| all[k]).collect()
+    (1..all.len() - 1)
+        .filter(|&k| keep[k])
+        .map(|k| all[k])
+        .collect()
 }
 
 #[cfg(test)]
@@ -255,12 +269,20 @@ mod tests {
 
     #[test]
     fn the_spine_of_a_wedge_starts_at_its_corner() {
-        let s = Shape { ring: vec![pt(0., 0.), pt(100., 0.), pt(100., 40.)], front: vec![true; 3] };
+        let s = Shape {
+            ring: vec![pt(0., 0.), pt(100., 0.), pt(100., 40.)],
+            front: vec![true; 3],
+        };
         let a = Base::new(vec![pt(0., 0.), pt(100., 0.)], true);
         let b = Base::new(vec![pt(100., 40.), pt(0., 0.)], true);
         let lines = level_lines(&s, &Level::Between(a, b), 3.0, 0.3);
         assert!(!lines.is_empty());
         let corner = pt(0., 0.);
-        assert!(lines.iter().any(|l| l.from.at == corner || l.to.at == corner), "{lines:?}");
+        assert!(
+            lines
+                .iter()
+                .any(|l| l.from.at == corner || l.to.at == corner),
+            "{lines:?}"
+        );
     }
 }

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 use geo_types::Coord;
 
-use super::geom::{area, dist, is_simple, nearest_on, lerp, P};
+use super::geom::{area, dist, is_simple, lerp, nearest_on, P};
 use super::search::Part;
 use super::shape::Shape;
 use super::{ParcelOptions, Piece, PieceKind};
@@ -31,7 +31,10 @@ pub(super) struct Mesh {
 impl Mesh {
     /// Numbers the points of the parts and puts in the missing vertices.
     pub(super) fn new(block: &Shape, parts: &[Part], options: &ParcelOptions) -> Self {
-        let size = block.ring.iter().fold(options.width, |m, p| m.max(p.x.abs()).max(p.y.abs()));
+        let size = block
+            .ring
+            .iter()
+            .fold(options.width, |m, p| m.max(p.x.abs()).max(p.y.abs()));
         let mut mesh = Self {
             points: block.ring.clone(),
             rings: Vec::new(),
@@ -40,23 +43,33 @@ impl Mesh {
             own: block.len(),
             eps: 1e-10 * size,
         };
-        let key = |p: P| ((p.x + 0.0).to_bits(), (p.y + 0.0).to_bits());
-        let mut number: BTreeMap<(u64, u64), usize> = BTreeMap::new();
-        for (i, &p) in block.ring.iter().enumerate() {
-            number.entry(key(p)).or_insert(i);
+        // The same place may have been computed twice, from either side of a
+        // line, with different last digits: points within a hair are one.
+        let mut number = Numbering::new(1e-7 * options.width);
+        for &p in &block.ring {
+            number.insert(p);
         }
         for part in parts {
-            let mut ring = Vec::with_capacity(part.shape.len());
-            for &p in &part.shape.ring {
-                let next = mesh.points.len();
-                let id = *number.entry(key(p)).or_insert(next);
-                if id == next {
+            let mut ring: Vec<usize> = Vec::with_capacity(part.shape.len());
+            let mut front = Vec::with_capacity(part.shape.len());
+            for (&p, &f) in part.shape.ring.iter().zip(&part.shape.front) {
+                let (id, new) = number.find(p);
+                if new {
                     mesh.points.push(p);
                 }
-                ring.push(id);
+                if ring.last() == Some(&id) {
+                    front.pop();
+                } else {
+                    ring.push(id);
+                }
+                front.push(f);
+            }
+            if ring.len() > 1 && ring.first() == ring.last() {
+                ring.pop();
+                front.pop();
             }
             mesh.rings.push(ring);
-            mesh.front.push(part.shape.front.clone());
+            mesh.front.push(front);
             mesh.green.push(part.green);
         }
         mesh.weld();
@@ -69,7 +82,9 @@ impl Mesh {
         let mut order: Vec<usize> = (0..self.points.len()).collect();
         order.sort_by(|&i, &j| {
             let (a, b) = (self.points[i], self.points[j]);
-            a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(i.cmp(&j))
+            a.x.total_cmp(&b.x)
+                .then(a.y.total_cmp(&b.y))
+                .then(i.cmp(&j))
         });
         let xs: Vec<f64> = order.iter().map(|&i| self.points[i].x).collect();
         for r in 0..self.rings.len() {
@@ -117,7 +132,10 @@ impl Mesh {
     }
 
     pub(super) fn shape(&self, r: usize) -> Shape {
-        Shape { ring: self.ring(r), front: self.front[r].clone() }
+        Shape {
+            ring: self.ring(r),
+            front: self.front[r].clone(),
+        }
     }
 
     /// A piece is a parcel exactly when it has the hard frontage, unless the
@@ -146,18 +164,26 @@ impl Mesh {
         let mut edges: BTreeMap<(usize, usize), usize> = BTreeMap::new();
         for ring in &self.rings {
             for i in 0..ring.len() {
-                if edges.insert((ring[i], ring[(i + 1) % ring.len()]), 0).is_some() {
+                if edges
+                    .insert((ring[i], ring[(i + 1) % ring.len()]), 0)
+                    .is_some()
+                {
                     return false;
                 }
             }
         }
-        let size = self.points.iter().fold(1.0, |m: f64, p| m.max(p.x.abs()).max(p.y.abs()));
+        let size = self
+            .points
+            .iter()
+            .fold(1.0, |m: f64, p| m.max(p.x.abs()).max(p.y.abs()));
         let open: f64 = edges
             .keys()
             .filter(|&&(a, b)| !edges.contains_key(&(b, a)))
             .map(|&(a, b)| dist(self.points[a], self.points[b]))
             .sum();
-        let outline: f64 = (0..block.len()).map(|i| dist(block.edge(i).0, block.edge(i).1)).sum();
+        let outline: f64 = (0..block.len())
+            .map(|i| dist(block.edge(i).0, block.edge(i).1))
+            .sum();
         (sum - total).abs() <= 1e-10 * total + 1e-12 * size * size
             && (open - outline).abs() <= 1e-9 * outline
     }
@@ -171,10 +197,72 @@ impl Mesh {
             .map(|(ring, &green)| Piece {
                 ring: ring
                     .iter()
-                    .map(|&i| if i < self.own { own[i] } else { self.points[i] + origin })
+                    .map(|&i| {
+                        if i < self.own {
+                            own[i]
+                        } else {
+                            self.points[i] + origin
+                        }
+                    })
                     .collect(),
-                kind: if green { PieceKind::Green } else { PieceKind::Parcel },
+                kind: if green {
+                    PieceKind::Green
+                } else {
+                    PieceKind::Parcel
+                },
             })
             .collect()
+    }
+}
+
+/// Numbers points, taking those within a tolerance for the same.
+struct Numbering {
+    cell: f64,
+    grid: BTreeMap<(i64, i64), Vec<(usize, P)>>,
+    next: usize,
+}
+
+impl Numbering {
+    fn new(tolerance: f64) -> Self {
+        Self {
+            cell: tolerance,
+            grid: BTreeMap::new(),
+            next: 0,
+        }
+    }
+
+    fn cell_of(&self, p: P) -> (i64, i64) {
+        (
+            (p.x / self.cell).floor() as i64,
+            (p.y / self.cell).floor() as i64,
+        )
+    }
+
+    /// A new number, whatever is near.
+    fn insert(&mut self, p: P) {
+        let c = self.cell_of(p);
+        self.grid.entry(c).or_default().push((self.next, p));
+        self.next += 1;
+    }
+
+    /// The number of the point, and whether it is new.
+    fn find(&mut self, p: P) -> (usize, bool) {
+        let (x, y) = self.cell_of(p);
+        let mut best: Option<(f64, usize)> = None;
+        for i in x - 1..=x + 1 {
+            for j in y - 1..=y + 1 {
+                for &(id, q) in self.grid.get(&(i, j)).into_iter().flatten() {
+                    let d = dist(p, q);
+                    if d <= self.cell && best.is_none_or(|b| (d, id) < b) {
+                        best = Some((d, id));
+                    }
+                }
+            }
+        }
+        if let Some((_, id)) = best {
+            return (id, false);
+        }
+        self.insert(p);
+        (self.next - 1, true)
     }
 }
