@@ -4,6 +4,8 @@
 
 mod cuts;
 mod geom;
+mod improve;
+mod ladder;
 mod quality;
 mod row;
 mod search;
@@ -101,6 +103,7 @@ pub fn parcel(block: &Block, options: &ParcelOptions) -> Vec<Piece> {
     let parts = search::plan(&shape, options, &mut bench);
     let mut mesh = weld::Mesh::new(&shape, &parts, options);
     mesh.settle_kinds(options);
+    improve::improve(&mut mesh, options, &mut bench);
     if !mesh.holds(&shape) {
         return whole();
     }

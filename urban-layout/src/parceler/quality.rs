@@ -197,7 +197,7 @@ pub(super) fn cost(q: &Quality, options: &ParcelOptions) -> f64 {
     // A ramp just below each limit keeps a parcel from resting on it.
     c += 0.3 * ((x - 0.85) / 0.15).clamp(0.0, 1.0) + 0.3 * ((y - 0.85) / 0.15).clamp(0.0, 1.0);
     if q.is_bad() {
-        c += 1.0 + (0.5 * (x - 1.0)).clamp(0.0, 1.0) + (0.5 * (y - 1.0)).clamp(0.0, 1.0);
+        c += 1.0 + (0.15 * (x - 1.0)).clamp(0.0, 0.4) + (0.1 * (y - 1.0)).clamp(0.0, 0.4);
     }
     let s = a.ln();
     c += 0.12 * s * s;
@@ -215,7 +215,7 @@ pub(super) fn cost(q: &Quality, options: &ParcelOptions) -> f64 {
 
 /// Cost of land that no street reaches, by area alone.
 pub(super) fn green_cost(area: f64, options: &ParcelOptions) -> f64 {
-    2.0 * area / (options.depth * options.width)
+    0.5 + 2.6 * area / (options.depth * options.width)
 }
 
 #[cfg(test)]

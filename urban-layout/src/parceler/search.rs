@@ -9,6 +9,7 @@
 
 use super::cuts::cuts;
 use super::geom::P;
+use super::ladder::refine;
 use super::quality::{cost, green_cost, measure};
 use super::row::{Bench, Row, Rung};
 use super::shape::Shape;
@@ -55,7 +56,9 @@ pub(super) fn plan(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) ->
                 green: *green,
             }),
             Leaf::Row(row, rungs) => {
-                for shape in row.shapes(rungs, bench) {
+                let c = row.total(rungs, options, bench, f64::INFINITY).unwrap_or(f64::INFINITY);
+                let (_, rungs) = refine(row, c, rungs, options, bench);
+                for shape in row.shapes(&rungs, bench) {
                     parts.push(Part {
                         shape,
                         green: false,

@@ -26,6 +26,15 @@ pub(super) struct Mesh {
     /// How many points are the block's own.
     pub(super) own: usize,
     eps: f64,
+    /// Directed edge to ring and place, kept by [`Mesh::refresh`].
+    edges: BTreeMap<(usize, usize), (usize, usize)>,
+}
+
+/// Two pieces as one.
+#[derive(Clone, Debug)]
+pub(super) struct Union {
+    pub(super) ids: Vec<usize>,
+    pub(super) shape: Shape,
 }
 
 impl Mesh {
@@ -42,6 +51,7 @@ impl Mesh {
             green: Vec::new(),
             own: block.len(),
             eps: 1e-10 * size,
+            edges: BTreeMap::new(),
         };
         // The same place may have been computed twice, from either side of a
         // line, with different last digits: points within a hair are one.
@@ -73,7 +83,94 @@ impl Mesh {
             mesh.green.push(part.green);
         }
         mesh.weld();
+        mesh.refresh();
         mesh
+    }
+
+    /// Numbers the edges anew, after rings have changed.
+    pub(super) fn refresh(&mut self) {
+        self.edges.clear();
+        for (r, ring) in self.rings.iter().enumerate() {
+            for i in 0..ring.len() {
+                self.edges.insert((ring[i], ring[(i + 1) % ring.len()]), (r, i));
+            }
+        }
+    }
+
+    /// Ring and place of a directed edge.
+    pub(super) fn find_edge(&self, edge: (usize, usize)) -> Option<(usize, usize)> {
+        self.edges.get(&edge).copied()
+    }
+
+    /// Puts a new point on the edge `a` to `b`, in the rings on both sides,
+    /// and returns its number. Call [`Mesh::refresh`] once done.
+    pub(super) fn insert(&mut self, a: usize, b: usize, p: P) -> usize {
+        let id = self.points.len();
+        self.points.push(p);
+        for edge in [(a, b), (b, a)] {
+            if let Some(&(r, _)) = self.edges.get(&edge) {
+                // Earlier insertions may have moved the place.
+                let ring = &mut self.rings[r];
+                let n = ring.len();
+                if let Some(i) = (0..n).find(|&i| (ring[i], ring[(i + 1) % n]) == edge) {
+                    ring.insert(i + 1, id);
+                    let f = self.front[r][i];
+                    self.front[r].insert(i + 1, f);
+                }
+            }
+        }
+        id
+    }
+
+    /// Pieces `r` and `q` joined, if what they share is one stretch of edges.
+    pub(super) fn union(&self, r: usize, q: usize) -> Option<Union> {
+        let (a, b) = (&self.rings[r], &self.rings[q]);
+        let (n, m) = (a.len(), b.len());
+        let shared: Vec<bool> = (0..n)
+            .map(|i| self.find_edge((a[(i + 1) % n], a[i])).is_some_and(|(t, _)| t == q))
+            .collect();
+        // The first edge of the stretch, and that there is only one.
+        let mut starts = (0..n).filter(|&i| shared[i] && !shared[(i + n - 1) % n]);
+        let start = starts.next()?;
+        if starts.next().is_some() {
+            return None;
+        }
+        let len = (0..n).take_while(|&k| shared[(start + k) % n]).count();
+        let (mut ids, mut front) = (Vec::new(), Vec::new());
+        // Round the first piece from the stretch's end to its start.
+        for k in len..n {
+            let i = (start + k) % n;
+            ids.push(a[i]);
+            front.push(self.front[r][i]);
+        }
+        // Round the second piece from there back to the stretch's end.
+        let from = b.iter().position(|&id| id == a[start])?;
+        for k in 0..m - len {
+            let i = (from + k) % m;
+            ids.push(b[i]);
+            front.push(self.front[q][i]);
+        }
+        // A stretch with no more than its ends in common, or a pinch: no ring.
+        let mut sorted = ids.clone();
+        sorted.sort_unstable();
+        sorted.dedup();
+        if sorted.len() != ids.len() || ids.len() < 3 {
+            return None;
+        }
+        let ring = ids.iter().map(|&i| self.points[i]).collect();
+        Some(Union { ids, shape: Shape { ring, front } })
+    }
+
+    /// Forgets pieces that have been joined into others.
+    pub(super) fn drop_empty(&mut self) {
+        let keep: Vec<bool> = self.rings.iter().map(|r| !r.is_empty()).collect();
+        let mut k = keep.iter();
+        self.rings.retain(|_| *k.next().unwrap_or(&true));
+        let mut k = keep.iter();
+        self.front.retain(|_| *k.next().unwrap_or(&true));
+        let mut k = keep.iter();
+        self.green.retain(|_| *k.next().unwrap_or(&true));
+        self.refresh();
     }
 
     /// Puts every point that lies on an edge into that edge.
