@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use super::geom::{turned, P};
-use super::quality::{cost, green_cost, measure};
+use super::quality::{cost, measure};
 use super::row::{Bench, Row, Rung};
 use super::shape::Shape;
 use super::weld::Mesh;
@@ -84,9 +84,6 @@ enum Change {
 
 fn piece_cost(mesh: &Mesh, r: usize, options: &ParcelOptions, bench: &mut Bench) -> f64 {
     let s = mesh.shape(r);
-    if mesh.green[r] {
-        return green_cost(s.area(), options);
-    }
     price(&s.ring, &s.front, options, bench)
 }
 
@@ -179,7 +176,6 @@ fn apply(mesh: &mut Mesh, r: usize, q: usize, change: Change, options: &ParcelOp
         Change::Join => {
             mesh.rings[r] = union.ids;
             mesh.front[r] = union.shape.front;
-            mesh.green[r] = false;
             mesh.rings[q].clear();
             mesh.front[q].clear();
         }
@@ -218,7 +214,6 @@ fn apply(mesh: &mut Mesh, r: usize, q: usize, change: Change, options: &ParcelOp
             for (t, ring, flags) in [(r, left, left_front), (q, right, right_front)] {
                 mesh.rings[t] = ring;
                 mesh.front[t] = flags;
-                mesh.green[t] = mesh.shape(t).frontage() < options.min_frontage;
             }
         }
     }

@@ -102,8 +102,8 @@ pub fn parcel(block: &Block, options: &ParcelOptions) -> Vec<Piece> {
     let mut bench = Bench::default();
     let parts = search::plan(&shape, options, &mut bench);
     let mut mesh = weld::Mesh::new(&shape, &parts, options);
-    mesh.settle_kinds(options);
     improve::improve(&mut mesh, options, &mut bench);
+    mesh.settle_kinds(options);
     if !mesh.holds(&shape) {
         return whole();
     }

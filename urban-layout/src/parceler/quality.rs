@@ -175,29 +175,36 @@ fn hull(points: &mut [P], out: &mut Vec<P>) {
     }
 }
 
-/// Cost of a piece as a parcel; 0 is perfect, about 1 or more is bad.
+/// Cost of a piece in its better use, parcel or green; 0 is perfect, about 1
+/// or more is bad.
+pub(super) fn cost(q: &Quality, options: &ParcelOptions) -> f64 {
+    parcel_cost(q, options).min(green_cost(q, options))
+}
+
+/// Whether a piece is better left green than called a parcel.
+pub(super) fn is_green(q: &Quality, options: &ParcelOptions) -> bool {
+    q.frontage < options.min_frontage || parcel_cost(q, options) > green_cost(q, options)
+}
+
+/// Cost of a piece as a parcel.
 ///
 /// Costs add up over a block: a piece weighs half by its number, half by its
 /// area, so that neither many bad slivers nor one large bad lot comes cheap.
-/// A piece below the hard frontage costs as much as green land and more.
-pub(super) fn cost(q: &Quality, options: &ParcelOptions) -> f64 {
+/// The step at the certificate's limits is what counts; a gentle slope on
+/// either side pulls towards right angles and rectangles everywhere.
+fn parcel_cost(q: &Quality, options: &ParcelOptions) -> f64 {
     let a = q.area / (options.depth * options.width);
-    if q.frontage < options.min_frontage * 1.001 {
-        return green_cost(q.area, options) + 4.0;
-    }
-    if q.area.is_nan() || a <= 0.0 {
-        return 1e3;
+    // A hair above the hard limit, so that rounding cannot undercut it.
+    if q.frontage < options.min_frontage * 1.001 || q.area.is_nan() || a <= 0.0 {
+        return 1e3 * (1.0 + a.max(0.0));
     }
     let mut c = 0.0;
-    let (x, y) = (
-        q.deviation / BAD_DEVIATION,
-        (q.ratio - 1.0) / (BAD_RATIO - 1.0),
-    );
+    let (x, y) = (q.deviation / BAD_DEVIATION, (q.ratio - 1.0) / (BAD_RATIO - 1.0));
     c += 0.25 * x.min(1.0).powi(2) + 0.25 * y.min(1.0).powi(2);
     // A ramp just below each limit keeps a parcel from resting on it.
     c += 0.3 * ((x - 0.85) / 0.15).clamp(0.0, 1.0) + 0.3 * ((y - 0.85) / 0.15).clamp(0.0, 1.0);
     if q.is_bad() {
-        c += 1.0 + (0.15 * (x - 1.0)).clamp(0.0, 0.4) + (0.1 * (y - 1.0)).clamp(0.0, 0.4);
+        c += 0.8 + (0.15 * (x - 1.0)).clamp(0.0, 0.4) + (0.12 * (y - 1.0)).clamp(0.0, 1.2);
     }
     let s = a.ln();
     c += 0.12 * s * s;
@@ -213,9 +220,11 @@ pub(super) fn cost(q: &Quality, options: &ParcelOptions) -> f64 {
     c * 0.5 * (1.0 + a)
 }
 
-/// Cost of land that no street reaches, by area alone.
-pub(super) fn green_cost(area: f64, options: &ParcelOptions) -> f64 {
-    0.5 + 2.6 * area / (options.depth * options.width)
+/// Cost of a piece as green land: mostly its area. A scrap that no street
+/// reaches is worth less than the same scrap on a street.
+fn green_cost(q: &Quality, options: &ParcelOptions) -> f64 {
+    let base = if q.frontage < options.min_frontage { 1.0 } else { 0.4 };
+    base + 2.1 * q.area.max(0.0) / (options.depth * options.width)
 }
 
 #[cfg(test)]

@@ -10,23 +10,16 @@
 use super::cuts::cuts;
 use super::geom::P;
 use super::ladder::refine;
-use super::quality::{cost, green_cost, measure};
+use super::quality::{cost, measure};
 use super::row::{Bench, Row, Rung};
 use super::shape::Shape;
 use super::ParcelOptions;
-
-/// A piece of the plan.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Part {
-    pub(super) shape: Shape,
-    pub(super) green: bool,
-}
 
 /// A piece that is not structurally cut any further.
 #[derive(Clone, Debug)]
 pub(super) enum Leaf {
     /// One parcel, or one green.
-    Whole(Shape, bool),
+    Whole(Shape),
     /// A row and its rungs.
     Row(Box<Row>, Vec<Rung>),
 }
@@ -35,7 +28,8 @@ pub(super) enum Leaf {
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
     pub(super) cost: f64,
-    pub(super) leaves: Vec<Leaf>,
+    /// The leaves, each with its cost.
+    pub(super) leaves: Vec<(f64, Leaf)>,
 }
 
 /// How many cuts are taken further at each level.
@@ -44,25 +38,30 @@ const BEAM: [usize; 4] = [6, 3, 2, 1];
 const CLEAN: f64 = 0.08;
 
 /// Divides a simple ring; the parts tile it.
-pub(super) fn plan(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) -> Vec<Part> {
+pub(super) fn plan(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) -> Vec<Shape> {
     let lots = shape.area() / (options.depth * options.width);
-    let budget = bench.measured + 4000 + (300.0 * lots.min(200.0)) as usize;
-    let best = deepen(shape, options, bench, 0, budget);
+    let mut left = (6000.0 + 400.0 * lots.min(300.0)) as usize;
+    let mut work = vec![(shape.clone(), f64::INFINITY, 0)];
     let mut parts = Vec::new();
-    for leaf in &best.leaves {
-        match leaf {
-            Leaf::Whole(shape, green) => parts.push(Part {
-                shape: shape.clone(),
-                green: *green,
-            }),
-            Leaf::Row(row, rungs) => {
-                let c = row.total(rungs, options, bench, f64::INFINITY).unwrap_or(f64::INFINITY);
-                let (_, rungs) = refine(row, c, rungs, options, bench);
-                for shape in row.shapes(&rungs, bench) {
-                    parts.push(Part {
-                        shape,
-                        green: false,
-                    });
+    // The levels reach for a few rows. What they leave in a poor state is
+    // planned again by itself, with all levels, as long as that gains.
+    while let Some((shape, was, round)) = work.pop() {
+        let start = bench.measured;
+        let share = if round == 0 { left / 2 } else { left / 4 };
+        let best = deepen(&shape, options, bench, 0, start + share);
+        left = left.saturating_sub(bench.measured - start);
+        let split = best.leaves.len() > 1 && best.cost < was - 1e-6;
+        for (c, leaf) in best.leaves {
+            let lots = leaf.area() / (options.depth * options.width);
+            if split && round < 6 && left > 500 && lots > 1.5 && c > 0.3 * lots && leaf.frontage() > options.good_frontage {
+                work.push((leaf.into_shape(), c, round + 1));
+                continue;
+            }
+            match leaf {
+                Leaf::Whole(shape) => parts.push(shape),
+                Leaf::Row(row, rungs) => {
+                    let (_, rungs) = refine(&row, c, &rungs, options, bench);
+                    parts.extend(row.shapes(&rungs, bench));
                 }
             }
         }
@@ -70,27 +69,37 @@ pub(super) fn plan(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) ->
     parts
 }
 
-/// The shape without structural cuts: one parcel, one row, or green.
+impl Leaf {
+    fn shape(&self) -> &Shape {
+        match self {
+            Self::Whole(s) => s,
+            Self::Row(r, _) => &r.shape,
+        }
+    }
+
+    fn into_shape(self) -> Shape {
+        match self {
+            Self::Whole(s) => s,
+            Self::Row(r, _) => r.shape,
+        }
+    }
+
+    fn area(&self) -> f64 {
+        self.shape().area()
+    }
+
+    fn frontage(&self) -> f64 {
+        self.shape().frontage()
+    }
+}
+
+/// The shape without structural cuts: one piece or one row.
 fn quick(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) -> Plan {
     let area = shape.area();
-    let green = Plan {
-        cost: green_cost(area, options),
-        leaves: vec![Leaf::Whole(shape.clone(), true)],
-    };
-    if shape.frontage() < options.min_frontage {
-        return green;
-    }
-    let mut best = green;
     bench.measured += 1;
-    let q = measure(&shape.ring, &shape.front, &mut bench.scratch);
-    let c = cost(&q, options);
-    if c < best.cost {
-        best = Plan {
-            cost: c,
-            leaves: vec![Leaf::Whole(shape.clone(), false)],
-        };
-    }
-    if area < 0.9 * options.depth * options.width {
+    let c = cost(&measure(&shape.ring, &shape.front, &mut bench.scratch), options);
+    let mut best = Plan { cost: c, leaves: vec![(c, Leaf::Whole(shape.clone()))] };
+    if area < 0.9 * options.depth * options.width || shape.frontage() < options.min_frontage {
         return best;
     }
     let mut chains = shape.chains(options);
@@ -99,15 +108,10 @@ fn quick(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) -> Plan {
         if clean(&best, area, options) {
             break;
         }
-        let Some(row) = Row::new(shape, chain, options) else {
-            continue;
-        };
+        let Some(row) = Row::new(shape, chain, options) else { continue };
         if let Some((c, rungs)) = row.regular(options, bench) {
             if c < best.cost {
-                best = Plan {
-                    cost: c,
-                    leaves: vec![Leaf::Row(Box::new(row), rungs)],
-                };
+                best = Plan { cost: c, leaves: vec![(c, Leaf::Row(Box::new(row), rungs))] };
             }
         }
     }

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use geo_types::Coord;
 
 use super::geom::{area, dist, is_simple, lerp, nearest_on, P};
-use super::search::Part;
+use super::quality::{is_green, measure, Scratch};
 use super::shape::Shape;
 use super::{ParcelOptions, Piece, PieceKind};
 
@@ -39,7 +39,7 @@ pub(super) struct Union {
 
 impl Mesh {
     /// Numbers the points of the parts and puts in the missing vertices.
-    pub(super) fn new(block: &Shape, parts: &[Part], options: &ParcelOptions) -> Self {
+    pub(super) fn new(block: &Shape, parts: &[Shape], options: &ParcelOptions) -> Self {
         let size = block
             .ring
             .iter()
@@ -60,9 +60,9 @@ impl Mesh {
             number.insert(p);
         }
         for part in parts {
-            let mut ring: Vec<usize> = Vec::with_capacity(part.shape.len());
-            let mut front = Vec::with_capacity(part.shape.len());
-            for (&p, &f) in part.shape.ring.iter().zip(&part.shape.front) {
+            let mut ring: Vec<usize> = Vec::with_capacity(part.len());
+            let mut front = Vec::with_capacity(part.len());
+            for (&p, &f) in part.ring.iter().zip(&part.front) {
                 let (id, new) = number.find(p);
                 if new {
                     mesh.points.push(p);
@@ -80,7 +80,7 @@ impl Mesh {
             }
             mesh.rings.push(ring);
             mesh.front.push(front);
-            mesh.green.push(part.green);
+            mesh.green.push(false);
         }
         mesh.weld();
         mesh.refresh();
@@ -235,13 +235,11 @@ impl Mesh {
         }
     }
 
-    /// A piece is a parcel exactly when it has the hard frontage, unless the
-    /// search has chosen to leave it green.
+    /// Settles which pieces are parcels and which are green.
     pub(super) fn settle_kinds(&mut self, options: &ParcelOptions) {
+        let mut scratch = Scratch::default();
         for r in 0..self.rings.len() {
-            if self.shape(r).frontage() < options.min_frontage {
-                self.green[r] = true;
-            }
+            self.green[r] = is_green(&measure(&self.ring(r), &self.front[r], &mut scratch), options);
         }
     }
 
