@@ -1,0 +1,414 @@
+//! Triangulation: the only place that knows spade.
+
+use std::cell::Cell;
+
+use spade::{
+    AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementParameters, Triangulation,
+};
+
+use super::lattice::{boundary, interior, Segment};
+use super::ring::{Frame, Ring};
+use super::DomainOptions;
+use crate::plane::{orient_exact, V2};
+use crate::FieldError;
+
+type Cdt = ConstrainedDelaunayTriangulation<Point2<f64>>;
+
+/// Set in a neighbour entry when it is a border instead of a triangle.
+pub(crate) const BORDER: u32 = 1 << 31;
+
+/// A boundary edge of the mesh, the domain on its left.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Border {
+    /// Start vertex.
+    pub(crate) from: u32,
+    /// End vertex.
+    pub(crate) to: u32,
+    /// Ring it lies on.
+    pub(crate) ring: u32,
+    /// Edge of the (cleaned) ring it lies on.
+    pub(crate) edge: u32,
+}
+
+/// What the triangulation gives.
+#[derive(Clone, Debug)]
+pub(crate) struct Mesh {
+    pub(crate) points: Vec<V2>,
+    /// Counter-clockwise.
+    pub(crate) triangles: Vec<[u32; 3]>,
+    /// Entry `k`: the triangle across the edge from corner `k` to `k + 1`, or
+    /// `BORDER | index` into `borders`.
+    pub(crate) neighbours: Vec<[u32; 3]>,
+    pub(crate) borders: Vec<Border>,
+}
+
+/// Triangulates the rings with triangle edges of about `step`.
+pub(crate) fn triangulate(
+    rings: &[Ring],
+    frame: Frame,
+    step: f64,
+    options: &DomainOptions,
+) -> Result<Mesh, FieldError> {
+    let (points, segments) = boundary(rings, step);
+    overlapping(rings, frame, &segments)?;
+    let inside = interior(rings, &points, &segments, step);
+    let total = points.len() + inside.len();
+    if total > options.max_vertices {
+        return Err(FieldError::TooManyVertices {
+            needed: total,
+            allowed: options.max_vertices,
+        });
+    }
+    // A power of two scales without rounding; it keeps spade's absolute
+    // limits (1e-43, 1e60) out of reach whatever the units of the domain.
+    let scale = frame.size.log2().round().exp2().recip();
+    let known = points.len();
+    let vertices: Vec<Point2<f64>> = points
+        .iter()
+        .chain(&inside)
+        .map(|p| Point2::new(flush(p.x * scale), flush(p.y * scale)))
+        .collect();
+    let constraints: Vec<[usize; 2]> = segments
+        .iter()
+        .map(|s| [s.from as usize, s.to as usize])
+        .collect();
+    let conflict = Cell::new(None);
+    let load = || {
+        Cdt::try_bulk_load_cdt(vertices.clone(), constraints.clone(), |pair| {
+            conflict.set(conflict.get().or(Some(pair)));
+        })
+        .map_err(|error| FieldError::MeshFailed {
+            what: format!("a vertex was refused ({error:?})"),
+        })
+    };
+    let plain = load()?;
+    if let Some(pair) = conflict.get() {
+        return Err(crossing(rings, frame, &points, &segments, pair));
+    }
+    let budget = (options.max_vertices - total).min(2 * total + 1000);
+    let parameters = refinement(step * scale, options.min_angle_deg, budget);
+    // spade asserts on a circumcentre that rounding put out of range. That
+    // has not been seen, but must not take the caller down: the mesh then
+    // stays as it was, valid but not refined.
+    let refined = std::panic::catch_unwind(|| {
+        let mut cdt = plain;
+        cdt.refine(parameters);
+        cdt
+    });
+    let cdt = refined.or_else(|_| load())?;
+    let mesh = extract(&cdt, scale.recip(), &points, known, &segments, rings)?;
+    let expected: f64 = rings.iter().map(Ring::area).sum();
+    let got = mesh.area();
+    if (got - expected).abs() > 1e-7 * expected.abs() + 1e-12 * frame.size * frame.size {
+        return Err(misplaced(rings, expected, got));
+    }
+    Ok(mesh)
+}
+
+/// Values so small that spade refuses them are zero.
+fn flush(value: f64) -> f64 {
+    if value.abs() < 1e-30 {
+        0.0
+    } else {
+        value
+    }
+}
+
+/// Delaunay refinement within a budget of vertices.
+///
+/// A mesh that used up its budget is still a valid triangulation: only its
+/// angles are worse. Refinement near tiny input angles can otherwise multiply
+/// the vertices a hundredfold.
+fn refinement(unit: f64, min_angle_deg: f64, budget: usize) -> RefinementParameters<f64> {
+    RefinementParameters::new()
+        .exclude_outer_faces(true)
+        .with_angle_limit(AngleLimit::from_deg(min_angle_deg))
+        // An equilateral triangle has 0.43 unit^2.
+        .with_max_allowed_area(0.75 * unit * unit)
+        .with_min_required_area(0.002 * unit * unit)
+        .with_max_additional_vertices(budget)
+}
+
+/// Reads the triangles inside the rings out of the triangulation.
+fn extract(
+    cdt: &Cdt,
+    scale: f64,
+    given: &[V2],
+    known: usize,
+    segments: &[Segment],
+    rings: &[Ring],
+) -> Result<Mesh, FieldError> {
+    let inside = inner_faces(cdt);
+    let mut number = vec![u32::MAX; cdt.num_all_faces()];
+    let mut vertex = vec![u32::MAX; cdt.num_vertices()];
+    let mut original = Vec::new();
+    let mut mesh = Mesh {
+        points: Vec::new(),
+        triangles: Vec::new(),
+        neighbours: Vec::new(),
+        borders: Vec::new(),
+    };
+    for face in cdt.inner_faces().filter(|face| inside[face.index()]) {
+        number[face.index()] = mesh.triangles.len() as u32;
+        mesh.triangles
+            .push(face.vertices().map(|v| v.index() as u32));
+    }
+    // Vertices keep their order: rings first, then lattice, then refinement.
+    for triangle in &mesh.triangles {
+        for &v in triangle {
+            vertex[v as usize] = 0;
+        }
+    }
+    for v in cdt.vertices() {
+        if vertex[v.index()] == u32::MAX {
+            continue;
+        }
+        let p = v.position();
+        vertex[v.index()] = original.len() as u32;
+        original.push(v.index());
+        // Ring points as given, to the bit.
+        mesh.points.push(if v.index() < known {
+            given[v.index()]
+        } else {
+            V2::new(p.x, p.y) * scale
+        });
+    }
+    for face in cdt.inner_faces().filter(|face| inside[face.index()]) {
+        let mut neighbours = [u32::MAX; 3];
+        for (k, edge) in face.adjacent_edges().into_iter().enumerate() {
+            let across = edge.rev().face();
+            neighbours[k] = match across.as_inner() {
+                Some(inner)
+                    if inside[inner.index()] && !edge.as_undirected().is_constraint_edge() =>
+                {
+                    number[inner.index()]
+                }
+                _ => {
+                    mesh.borders.push(Border {
+                        from: vertex[edge.from().index()],
+                        to: vertex[edge.to().index()],
+                        ring: u32::MAX,
+                        edge: u32::MAX,
+                    });
+                    BORDER | (mesh.borders.len() - 1) as u32
+                }
+            };
+        }
+        // `vertices` and `adjacent_edges` start at the same edge: the first
+        // edge leaves the first vertex.
+        let triangle = face.vertices();
+        let edges = face.adjacent_edges();
+        debug_assert!((0..3).all(|k| edges[k].from() == triangle[k]));
+        mesh.neighbours.push(neighbours);
+    }
+    for triangle in &mut mesh.triangles {
+        *triangle = triangle.map(|v| vertex[v as usize]);
+    }
+    if mesh.triangles.is_empty() {
+        return Err(FieldError::MeshFailed {
+            what: "no triangle lies inside the polygon".into(),
+        });
+    }
+    label(&mut mesh, &original, known, segments, rings);
+    Ok(mesh)
+}
+
+/// Which faces lie inside, by the parity of constraint edges crossed on the
+/// way in from the outer face.
+fn inner_faces(cdt: &Cdt) -> Vec<bool> {
+    let mut depth = vec![u32::MAX; cdt.num_all_faces()];
+    // Breadth first by depth: faces behind a constraint edge wait a round.
+    let mut now = vec![cdt.outer_face().fix()];
+    let mut later = Vec::new();
+    let mut level = 0_u32;
+    depth[cdt.outer_face().index()] = 0;
+    let mut hull: Vec<_> = cdt.convex_hull().map(|edge| edge.fix()).collect();
+    loop {
+        let mut edges: Vec<_> = std::mem::take(&mut hull);
+        while let Some(face) = now.pop() {
+            if let Some(inner) = cdt.face(face).as_inner() {
+                edges.extend(inner.adjacent_edges().map(|edge| edge.fix()));
+            }
+            for fixed in edges.drain(..) {
+                let edge = cdt.directed_edge(fixed);
+                let across = edge.rev().face();
+                if depth[across.index()] <= level {
+                    continue;
+                }
+                if edge.as_undirected().is_constraint_edge() {
+                    later.push(across.fix());
+                } else {
+                    depth[across.index()] = level;
+                    now.push(across.fix());
+                }
+            }
+        }
+        level += 1;
+        for face in later.drain(..) {
+            if depth[face.index()] == u32::MAX {
+                depth[face.index()] = level;
+                now.push(face);
+            }
+        }
+        if now.is_empty() {
+            break;
+        }
+    }
+    depth.iter().map(|d| d % 2 == 1).collect()
+}
+
+/// Names the ring edge that each border lies on.
+///
+/// A border belongs to the chain between two given points; points that
+/// refinement put in between have one border in and one out.
+fn label(mesh: &mut Mesh, original: &[usize], known: usize, segments: &[Segment], rings: &[Ring]) {
+    let mut table: Vec<(u32, u32, u32, u32)> = segments
+        .iter()
+        .map(|s| (s.from, s.to, s.ring, s.edge))
+        .collect();
+    table.sort_unstable();
+    let mut after = vec![u32::MAX; mesh.points.len()];
+    for (index, border) in mesh.borders.iter().enumerate() {
+        after[border.from as usize] = index as u32;
+    }
+    let given = |v: u32| original[v as usize] < known;
+    let mut chain = Vec::new();
+    for start in 0..mesh.borders.len() {
+        if !given(mesh.borders[start].from) {
+            continue;
+        }
+        chain.clear();
+        chain.push(start);
+        let mut last = start;
+        while !given(mesh.borders[last].to) && chain.len() <= mesh.borders.len() {
+            last = after[mesh.borders[last].to as usize] as usize;
+            chain.push(last);
+        }
+        let from = original[mesh.borders[start].from as usize] as u32;
+        let to = original[mesh.borders[last].to as usize] as u32;
+        let found = table.partition_point(|s| (s.0, s.1) < (from, to));
+        let name = match table.get(found) {
+            Some(&(f, t, ring, edge)) if (f, t) == (from, to) => (ring, edge),
+            // A ring touches another in the middle of an edge, which splits
+            // the segment: rare enough for a search through all edges.
+            _ => {
+                let middle = (mesh.points[mesh.borders[start].from as usize]
+                    + mesh.points[mesh.borders[start].to as usize])
+                    / 2.0;
+                nearest_edge(rings, middle)
+            }
+        };
+        for &border in &chain {
+            (mesh.borders[border].ring, mesh.borders[border].edge) = name;
+        }
+    }
+}
+
+/// Ring and edge nearest to `p`, by trying all.
+fn nearest_edge(rings: &[Ring], p: V2) -> (u32, u32) {
+    let mut best = (f64::INFINITY, (0, 0));
+    for (index, ring) in rings.iter().enumerate() {
+        for k in 0..ring.len() {
+            let (a, b) = ring.edge(k);
+            let distance = crate::plane::segment_distance_squared(p, a, b);
+            if distance < best.0 {
+                best = (distance, (index as u32, k as u32));
+            }
+        }
+    }
+    best.1
+}
+
+impl Mesh {
+    /// Sum of the triangles' areas.
+    pub(crate) fn area(&self) -> f64 {
+        self.triangles
+            .iter()
+            .map(|t| {
+                let [a, b, c] = t.map(|v| self.points[v as usize]);
+                crate::plane::orient(a, b, c) / 2.0
+            })
+            .sum()
+    }
+}
+
+/// Refuses two segments between the same points: a zero-width slit, or rings
+/// that share an edge.
+fn overlapping(rings: &[Ring], frame: Frame, segments: &[Segment]) -> Result<(), FieldError> {
+    let key = |s: &Segment| (s.from.min(s.to), s.from.max(s.to));
+    let mut order: Vec<&Segment> = segments.iter().collect();
+    order.sort_by_key(|s| (key(s), s.ring, s.edge));
+    match order.windows(2).find(|pair| key(pair[0]) == key(pair[1])) {
+        Some(pair) => {
+            let at = rings[pair[0].ring as usize].points[pair[0].edge as usize];
+            Err(intersecting(rings, frame, pair[0], pair[1], at))
+        }
+        None => Ok(()),
+    }
+}
+
+/// The error for a segment that spade could not add: finds what it crosses.
+fn crossing(
+    rings: &[Ring],
+    frame: Frame,
+    points: &[V2],
+    segments: &[Segment],
+    pair: [usize; 2],
+) -> FieldError {
+    let refused = segments.iter().find(|s| {
+        pair == [s.from as usize, s.to as usize] || pair == [s.to as usize, s.from as usize]
+    });
+    let Some(refused) = refused else {
+        return FieldError::MeshFailed {
+            what: "two boundary edges cross".into(),
+        };
+    };
+    let ends = |s: &Segment| (points[s.from as usize], points[s.to as usize]);
+    let (a, b) = ends(refused);
+    let across = |s: &&Segment| {
+        let (c, d) = ends(s);
+        let apart = |u: f64, v: f64| (u > 0.0 && v < 0.0) || (u < 0.0 && v > 0.0);
+        apart(orient_exact(a, b, c), orient_exact(a, b, d))
+            && apart(orient_exact(c, d, a), orient_exact(c, d, b))
+    };
+    let other = segments.iter().find(across).unwrap_or(refused);
+    intersecting(rings, frame, refused, other, (a + b) / 2.0)
+}
+
+fn intersecting(
+    rings: &[Ring],
+    frame: Frame,
+    one: &Segment,
+    other: &Segment,
+    at: V2,
+) -> FieldError {
+    let edge = |s: &Segment| rings[s.ring as usize].input_edge[s.edge as usize] as usize;
+    FieldError::SelfIntersecting {
+        ring: one.ring as usize,
+        edge: edge(one),
+        other_ring: other.ring as usize,
+        other_edge: edge(other),
+        x: at.x + frame.origin.x,
+        y: at.y + frame.origin.y,
+    }
+}
+
+/// The error for rings whose triangles do not add up to their area.
+fn misplaced(rings: &[Ring], expected: f64, got: f64) -> FieldError {
+    for (index, ring) in rings.iter().enumerate().skip(1) {
+        // A vertex may touch another ring; the majority decides.
+        let outside = |p: &&V2| {
+            let holes = rings.iter().enumerate().skip(1);
+            !rings[0].contains(**p)
+                || holes
+                    .filter(|(k, _)| *k != index)
+                    .any(|(_, r)| r.contains(**p))
+        };
+        if 2 * ring.points.iter().filter(outside).count() > ring.len() {
+            return FieldError::HoleOutside { ring: index };
+        }
+    }
+    FieldError::MeshFailed {
+        what: format!("its triangles cover {got}, the polygon has {expected} square units"),
+    }
+}

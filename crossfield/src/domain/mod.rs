@@ -1,0 +1,443 @@
+//! A triangulated polygon, the ground that fields are designed on.
+
+mod lattice;
+mod locate;
+mod mesh;
+mod ring;
+mod topology;
+
+use std::sync::{Arc, OnceLock};
+
+use geo_types::{Coord, Polygon};
+use nalgebra::Rotation2;
+
+use crate::footpoint::EdgeTree;
+use crate::plane::{coord, vector, V2};
+use crate::FieldError;
+pub(crate) use ring::Ring;
+
+/// How a domain is triangulated.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct DomainOptions {
+    /// Wanted length of triangle edges, metres; 0 for `sqrt(area) / 40`.
+    ///
+    /// Boundary edges are subdivided to at most this length.
+    ///
+    /// Default value: 0.
+    pub edge_length: f64,
+    /// Wanted smallest angle of the triangles, degrees, between 0 and 32.
+    ///
+    /// Reached except near small angles of the boundary itself, and except
+    /// where refinement runs out of its budget of vertices (three times the
+    /// vertices of an even mesh, and never more than `max_vertices`).
+    ///
+    /// Default value: 25.
+    pub min_angle_deg: f64,
+    /// Most vertices that the mesh may have.
+    ///
+    /// Default value: 200 000.
+    pub max_vertices: usize,
+    /// A boundary vertex that turns by more than this is a corner, degrees;
+    /// smaller turns belong to a curve.
+    ///
+    /// Default value: 30.
+    pub corner_deg: f64,
+}
+
+impl Default for DomainOptions {
+    fn default() -> Self {
+        Self {
+            edge_length: 0.0,
+            min_angle_deg: 25.0,
+            max_vertices: 200_000,
+            corner_deg: 30.0,
+        }
+    }
+}
+
+impl DomainOptions {
+    fn check(&self) -> Result<(), FieldError> {
+        if !(self.edge_length >= 0.0 && self.edge_length.is_finite()) {
+            return Err(FieldError::option(
+                "edge_length",
+                format!("is {}; give metres, or 0 for automatic", self.edge_length),
+            ));
+        }
+        if !(0.0..=32.0).contains(&self.min_angle_deg) {
+            return Err(FieldError::option(
+                "min_angle_deg",
+                format!("is {}; give 0 to 32 degrees", self.min_angle_deg),
+            ));
+        }
+        if !(self.corner_deg > 0.0 && self.corner_deg < 180.0) {
+            return Err(FieldError::option(
+                "corner_deg",
+                format!("is {}; give more than 0 and less than 180", self.corner_deg),
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// A corner of the boundary: a vertex that turns by more than
+/// [`DomainOptions::corner_deg`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Corner {
+    /// Where it is.
+    pub at: Coord<f64>,
+    /// Its ring, 0 for the exterior.
+    pub ring: usize,
+    /// Its vertex in the input ring.
+    pub vertex: usize,
+    /// By how much the boundary turns there, radians, with the domain on its
+    /// left: positive at convex corners, negative at concave ones.
+    pub turn: f64,
+}
+
+/// A point of the boundary.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Exit {
+    /// Where it is, on the edge named below.
+    pub point: Coord<f64>,
+    /// Its ring, 0 for the exterior.
+    pub ring: usize,
+    /// Its edge in the input ring; edge `i` joins vertices `i` and `i + 1`.
+    pub edge: usize,
+}
+
+/// Remembers the triangle in which a point was last found, so that the next
+/// one, not far away, is found in a few steps.
+///
+/// Any cursor may be used with any domain: a stale one costs time only, and
+/// `Cursor::default()` starts anew.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Cursor(u32);
+
+impl Cursor {
+    /// The cursor as a number, for those who keep it in a type of their own.
+    #[must_use]
+    pub const fn to_bits(self) -> u64 {
+        self.0 as u64
+    }
+
+    /// The cursor that [`Cursor::to_bits`] gave; any number is safe, a wrong
+    /// one only makes the next location slower.
+    #[must_use]
+    pub const fn from_bits(bits: u64) -> Self {
+        Self(bits as u32)
+    }
+}
+
+impl Cursor {
+    fn at(triangle: usize) -> Self {
+        Self(triangle as u32 + 1)
+    }
+
+    fn triangle(self, count: usize) -> Option<usize> {
+        let triangle = (self.0 as usize).checked_sub(1)?;
+        (triangle < count).then_some(triangle)
+    }
+}
+
+/// A polygon with holes, triangulated with Steiner points inside and on the
+/// boundary.
+///
+/// Cloning is cheap: clones share the mesh. Vertices are numbered with those
+/// of the rings first. Computations run relative to the centre of the
+/// bounding box, so that a domain far from the origin loses no digits.
+///
+/// The mesh is a lattice of equilateral triangles away from the boundary and
+/// a refined constrained Delaunay triangulation near it (Shewchuk 1996, which
+/// the paper uses, by way of the crate spade).
+///
+/// ```
+/// use crossfield::{geo_types::{coord, polygon}, Cursor, Domain, DomainOptions};
+///
+/// let square = polygon![(x: 0., y: 0.), (x: 9., y: 0.), (x: 9., y: 9.), (x: 0., y: 9.)];
+/// let domain = Domain::new(&square, &DomainOptions::default())?;
+/// assert!((domain.area() - 81.0).abs() < 1e-9);
+/// assert_eq!(domain.corners().len(), 4);
+///
+/// // Eastwards from the middle, the boundary is met on edge 1.
+/// let (from, to) = (coord! { x: 4.5, y: 4.0 }, coord! { x: 11.0, y: 4.0 });
+/// let exit = domain.exit(from, to, &mut Cursor::default()).expect("it leaves");
+/// assert_eq!((exit.edge, exit.point), (1, coord! { x: 9.0, y: 4.0 }));
+/// # Ok::<(), crossfield::FieldError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Domain {
+    pub(crate) inner: Arc<Inner>,
+}
+
+/// What a domain holds; coordinates are relative to `frame.origin`.
+#[derive(Debug)]
+pub(crate) struct Inner {
+    pub(crate) frame: ring::Frame,
+    pub(crate) rings: Vec<Ring>,
+    pub(crate) mesh: mesh::Mesh,
+    pub(crate) adjacency: topology::Adjacency,
+    pub(crate) area: f64,
+    edge_length: f64,
+    boundary: Vec<bool>,
+    grid: locate::Grid,
+    edges: OnceLock<EdgeTree>,
+}
+
+impl Domain {
+    /// Triangulates `polygon`.
+    ///
+    /// Rings may be oriented either way and closed or open; vertices nearer
+    /// than 1e-9 of the polygon's size are merged. Rings may touch at points.
+    ///
+    /// # Errors
+    ///
+    /// Each kind of bad input has its variant of [`FieldError`]: coordinates
+    /// that are not finite, rings without area, edges that cross or overlap,
+    /// holes outside the exterior, options out of range, and more vertices
+    /// than allowed.
+    ///
+    /// # Complexity
+    ///
+    /// O(n log n) in the vertices of the mesh: about 5 microseconds each.
+    pub fn new(polygon: &Polygon<f64>, options: &DomainOptions) -> Result<Self, FieldError> {
+        options.check()?;
+        let input = polygon.exterior().0.len()
+            + polygon.interiors().iter().map(|r| r.0.len()).sum::<usize>();
+        let allowed = options.max_vertices.min(MOST_VERTICES);
+        if input > allowed {
+            return Err(FieldError::TooManyVertices {
+                needed: input,
+                allowed,
+            });
+        }
+        let (frame, rings) = ring::rings(polygon, options.corner_deg.to_radians())?;
+        let area: f64 = rings.iter().map(Ring::area).sum();
+        if area <= 0.0 {
+            // More hole than polygon: some hole lies outside.
+            return Err(FieldError::HoleOutside { ring: 1 });
+        }
+        let step = if options.edge_length > 0.0 {
+            options.edge_length
+        } else {
+            area.sqrt() / 40.0
+        };
+        // Before any point is made: an edge length in the wrong unit must not
+        // fill the memory.
+        let perimeter: f64 = rings
+            .iter()
+            .map(|r| {
+                (0..r.len())
+                    .map(|k| (r.edge(k).1 - r.edge(k).0).norm())
+                    .sum::<f64>()
+            })
+            .sum();
+        let estimate = area / (0.87 * step * step) + perimeter / step;
+        if estimate > 1.2 * allowed as f64 {
+            return Err(FieldError::TooManyVertices {
+                needed: estimate as usize,
+                allowed,
+            });
+        }
+        let options = DomainOptions {
+            max_vertices: allowed,
+            ..options.clone()
+        };
+        let mesh = mesh::triangulate(&rings, frame, step, &options)?;
+        Ok(Self::assemble(frame, rings, mesh, area, step))
+    }
+
+    fn assemble(
+        frame: ring::Frame,
+        rings: Vec<Ring>,
+        mesh: mesh::Mesh,
+        area: f64,
+        edge_length: f64,
+    ) -> Self {
+        let adjacency = topology::Adjacency::new(&mesh);
+        let grid = locate::Grid::new(&mesh);
+        let mut boundary = vec![false; mesh.points.len()];
+        for border in &mesh.borders {
+            boundary[border.from as usize] = true;
+            boundary[border.to as usize] = true;
+        }
+        Self {
+            inner: Arc::new(Inner {
+                frame,
+                rings,
+                mesh,
+                adjacency,
+                area,
+                edge_length,
+                boundary,
+                grid,
+                edges: OnceLock::new(),
+            }),
+        }
+    }
+
+    /// The same mesh, turned by `angle` radians about the centre of its
+    /// bounding box and then shifted.
+    ///
+    /// Not the same as triangulating a moved polygon anew, which gives other
+    /// Steiner points: use it to compare fields vertex by vertex.
+    #[must_use]
+    pub fn moved(&self, angle: f64, shift: Coord<f64>) -> Self {
+        let inner = &*self.inner;
+        let turn = Rotation2::new(angle);
+        let mut rings = inner.rings.clone();
+        for ring in &mut rings {
+            ring.points.iter_mut().for_each(|p| *p = turn * *p);
+        }
+        let mut mesh = inner.mesh.clone();
+        mesh.points.iter_mut().for_each(|p| *p = turn * *p);
+        let frame = ring::Frame {
+            origin: inner.frame.origin + vector(shift),
+            size: inner.frame.size,
+        };
+        Self::assemble(frame, rings, mesh, inner.area, inner.edge_length)
+    }
+
+    /// Positions of all vertices.
+    #[must_use]
+    pub fn vertices(&self) -> Vec<Coord<f64>> {
+        (0..self.vertex_count()).map(|v| self.vertex(v)).collect()
+    }
+
+    /// Position of vertex `v`.
+    ///
+    /// # Panics
+    ///
+    /// If `v` is not below [`Domain::vertex_count`].
+    #[must_use]
+    pub fn vertex(&self, v: usize) -> Coord<f64> {
+        coord(self.inner.mesh.points[v] + self.inner.frame.origin)
+    }
+
+    /// Number of vertices.
+    #[must_use]
+    pub fn vertex_count(&self) -> usize {
+        self.inner.mesh.points.len()
+    }
+
+    /// Vertices of each triangle, counter-clockwise.
+    #[must_use]
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.inner.mesh.triangles
+    }
+
+    /// The vertices joined to vertex `v` by an edge, in ascending order.
+    ///
+    /// # Panics
+    ///
+    /// If `v` is not below [`Domain::vertex_count`].
+    #[must_use]
+    pub fn neighbours(&self, v: usize) -> &[u32] {
+        self.inner.adjacency.of(v)
+    }
+
+    /// Whether vertex `v` lies on the boundary.
+    ///
+    /// # Panics
+    ///
+    /// If `v` is not below [`Domain::vertex_count`].
+    #[must_use]
+    pub fn is_boundary(&self, v: usize) -> bool {
+        self.inner.boundary[v]
+    }
+
+    /// The vertices that do not lie on the boundary, in ascending order.
+    pub fn inner_vertices(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.vertex_count()).filter(|&v| !self.is_boundary(v))
+    }
+
+    /// The triangle that contains `at`, or `None` outside.
+    ///
+    /// Points on the boundary are inside, with a tolerance of 1e-10 of the
+    /// domain's size. Walks from the cursor's triangle, or looks into a grid
+    /// if there is none, it is far away, or the boundary is in between.
+    #[must_use]
+    pub fn locate(&self, at: Coord<f64>, cursor: &mut Cursor) -> Option<usize> {
+        self.inner.locate(self.local(at), cursor)
+    }
+
+    /// Where the segment from `from` to `to` first leaves the domain, or
+    /// `None` if it stays inside.
+    ///
+    /// The sides of the mesh edges are decided exactly, so that no gap is
+    /// slipped through; the point is rounded onto its edge. A segment that
+    /// touches the boundary in a single vertex may count either way. If
+    /// `from` lies outside, the boundary point nearest to it is returned.
+    #[must_use]
+    pub fn exit(&self, from: Coord<f64>, to: Coord<f64>, cursor: &mut Cursor) -> Option<Exit> {
+        self.inner.exit(self.local(from), self.local(to), cursor)
+    }
+
+    /// The boundary point nearest to `at`, which may lie anywhere.
+    ///
+    /// # Complexity
+    ///
+    /// O(log n) in the edges of the rings, after a tree over them is built by
+    /// the first call.
+    #[must_use]
+    pub fn nearest_boundary(&self, at: Coord<f64>) -> Exit {
+        self.inner.nearest_boundary(self.local(at))
+    }
+
+    /// Area, holes taken off.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        self.inner.area
+    }
+
+    /// Wanted length of triangle edges: the option, or what was chosen for it.
+    #[must_use]
+    pub fn edge_length(&self) -> f64 {
+        self.inner.edge_length
+    }
+
+    /// Number of boundary rings, the exterior included.
+    #[must_use]
+    pub fn ring_count(&self) -> usize {
+        self.inner.rings.len()
+    }
+
+    /// Vertices less edges plus triangles of the mesh: 1 for a disc, one less
+    /// for each hole.
+    #[must_use]
+    pub fn euler_characteristic(&self) -> i32 {
+        let inner = &*self.inner;
+        let edges = (3 * inner.mesh.triangles.len() + inner.mesh.borders.len()) / 2;
+        (inner.mesh.points.len() + inner.mesh.triangles.len()) as i32 - edges as i32
+    }
+
+    /// The corners of the boundary, ring by ring in the direction that has
+    /// the domain on its left.
+    #[must_use]
+    pub fn corners(&self) -> Vec<Corner> {
+        ring::corners(&self.inner.rings, self.inner.frame.origin)
+    }
+
+    /// Smallest angle of any triangle, radians.
+    #[must_use]
+    pub fn min_angle(&self) -> f64 {
+        topology::min_angle(&self.inner.mesh)
+    }
+
+    pub(crate) fn local(&self, at: Coord<f64>) -> V2 {
+        vector(at) - self.inner.frame.origin
+    }
+}
+
+impl Inner {
+    pub(crate) fn nearest_boundary(&self, p: V2) -> Exit {
+        let tree = self.edges.get_or_init(|| EdgeTree::new(&self.rings));
+        let (point, ring, edge) = tree.nearest(&self.rings, p);
+        self.named_exit(point, ring, edge)
+    }
+}
+
+/// Neighbour entries keep one bit for borders.
+const MOST_VERTICES: usize = 1 << 28;

@@ -1,0 +1,144 @@
+//! Edge weights and matrices of the discrete Laplacians, and gradients.
+
+use sprs::{CsMat, CsMatI};
+
+use crate::domain::Domain;
+use crate::plane::{left, wedge, V2};
+
+/// How differences along the edges of the mesh are weighed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Laplacian {
+    /// Cotangents of the opposite angles (Pinkall and Polthier 1993): what is
+    /// computed does not depend on the mesh, up to its fineness.
+    #[default]
+    Cotangent,
+    /// Each edge counts once, as the paper's sum is written: where the mesh
+    /// is fine, the field is stiffer.
+    Uniform,
+}
+
+/// The weight of each edge, parallel to the rows of the domain's adjacency.
+pub(crate) fn edge_weights(domain: &Domain, laplacian: Laplacian) -> Vec<f64> {
+    let inner = &*domain.inner;
+    let adjacency = &inner.adjacency;
+    if laplacian == Laplacian::Uniform {
+        return vec![1.0; adjacency.len()];
+    }
+    let mut weights = vec![0.0; adjacency.len()];
+    for triangle in &inner.mesh.triangles {
+        let points = triangle.map(|v| inner.mesh.points[v as usize]);
+        for k in 0..3 {
+            let [b, c] = [(k + 1) % 3, (k + 2) % 3];
+            let (p, q) = (points[b] - points[k], points[c] - points[k]);
+            // A triangle flattened by rounding would have infinite
+            // cotangents: they are cut at angles of 1e-8.
+            let sine = wedge(p, q).max(1e-8 * p.norm() * q.norm());
+            let half = if sine > 0.0 {
+                p.dot(&q) / sine / 2.0
+            } else {
+                0.0
+            };
+            for (v, w) in [(triangle[b], triangle[c]), (triangle[c], triangle[b])] {
+                if let Some(slot) = adjacency.slot(v, w) {
+                    weights[slot] += half;
+                }
+            }
+        }
+    }
+    weights
+}
+
+/// The matrix L + diag(extra), L the Laplacian with positive diagonal.
+///
+/// Symmetric, in compressed columns.
+pub(crate) fn laplacian_plus(domain: &Domain, weights: &[f64], extra: &[f64]) -> CsMat<f64> {
+    let adjacency = &domain.inner.adjacency;
+    let count = domain.vertex_count();
+    let entries = adjacency.len() + count;
+    let mut starts = Vec::with_capacity(count + 1);
+    let mut rows = Vec::with_capacity(entries);
+    let mut values = Vec::with_capacity(entries);
+    starts.push(0);
+    for (v, &extra) in extra.iter().enumerate().take(count) {
+        let mut diagonal = None;
+        let mut sum = extra;
+        for (&w, &weight) in adjacency.of(v).iter().zip(&weights[adjacency.row(v)]) {
+            if w as usize > v && diagonal.is_none() {
+                diagonal = Some(rows.len());
+                rows.push(v);
+                values.push(0.0);
+            }
+            sum += weight;
+            rows.push(w as usize);
+            values.push(-weight);
+        }
+        let diagonal = diagonal.unwrap_or_else(|| {
+            rows.push(v);
+            values.push(0.0);
+            rows.len() - 1
+        });
+        values[diagonal] = sum;
+        starts.push(rows.len());
+    }
+    CsMatI::new_csc((count, count), starts, rows, values)
+}
+
+/// Gradient of the linear function with the given values at the corners of a
+/// triangle; `None` if the triangle has no area.
+pub(crate) fn gradient(points: [V2; 3], values: [f64; 3]) -> Option<V2> {
+    let area = wedge(points[1] - points[0], points[2] - points[0]);
+    if area <= 0.0 {
+        return None;
+    }
+    // Each corner's hat function rises from the opposite edge.
+    let sum = (0..3).fold(V2::zeros(), |sum, k| {
+        sum + left(points[(k + 2) % 3] - points[(k + 1) % 3]) * values[k]
+    });
+    Some(sum / area)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::DomainOptions;
+    use geo_types::polygon;
+
+    #[test]
+    fn linear_functions_are_harmonic_and_have_their_gradient() {
+        let shape = polygon![(x: 0., y: 0.), (x: 9., y: 1.), (x: 7., y: 6.), (x: 2., y: 5.)];
+        let domain = Domain::new(&shape, &DomainOptions::default()).expect("valid");
+        let value = |p: V2| 3.0 * p.x - 2.0 * p.y + 1.0;
+        let points = &domain.inner.mesh.points;
+        let weights = edge_weights(&domain, Laplacian::Cotangent);
+        let matrix = laplacian_plus(&domain, &weights, &vec![0.0; points.len()]);
+        let mut image = vec![0.0; points.len()];
+        for (column, row) in matrix.outer_iterator().enumerate() {
+            for (k, &entry) in row.iter() {
+                image[k] += entry * value(points[column]);
+            }
+        }
+        for v in domain.inner_vertices() {
+            assert!(image[v].abs() < 1e-10);
+        }
+        for triangle in domain.triangles() {
+            let corners = triangle.map(|v| points[v as usize]);
+            let slope = gradient(corners, corners.map(value)).expect("area");
+            assert!((slope - V2::new(3.0, -2.0)).norm() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn constants_are_in_the_null_space() {
+        let shape = polygon![(x: 0., y: 0.), (x: 9., y: 1.), (x: 7., y: 6.), (x: 2., y: 5.)];
+        let domain = Domain::new(&shape, &DomainOptions::default()).expect("valid");
+        for laplacian in [Laplacian::Cotangent, Laplacian::Uniform] {
+            let weights = edge_weights(&domain, laplacian);
+            let matrix = laplacian_plus(&domain, &weights, &vec![0.0; domain.vertex_count()]);
+            for column in matrix.outer_iterator() {
+                let sum: f64 = column.iter().map(|(_, &entry)| entry).sum();
+                assert!(sum.abs() < 1e-9);
+            }
+        }
+    }
+}
