@@ -131,7 +131,7 @@ fn locate(shape: &Shape, q: P, snap: f64) -> Option<Mark> {
 fn offsets(shape: &Shape, chains: &[Chain], options: &ParcelOptions, out: &mut Vec<Path>) {
     for c in chains.iter().take(4) {
         let base = Base::new(shape.chain_points(c), true);
-        for d in [1.0, 1.35, 0.8] {
+        for d in [1.0, 1.35, 1.7, 0.8] {
             let level = Level::At(base.clone(), d * options.depth);
             out.extend(level_lines(shape, &level, step(options), options.snap()));
         }

@@ -17,7 +17,7 @@ use super::ParcelOptions;
 /// Pieces that cost less than this are left alone.
 const WORTH: f64 = 0.45;
 /// Leans of the chords tried, degrees against the side's normal.
-const LEANS: [f64; 7] = [0.0, -7.0, 7.0, -15.0, 15.0, -25.0, 25.0];
+const LEANS: [f64; 5] = [0.0, -9.0, 9.0, -20.0, 20.0];
 
 /// Joins and recuts pairs until nothing gains or the passes are used up.
 pub(super) fn improve(mesh: &mut Mesh, options: &ParcelOptions, bench: &mut Bench) {
@@ -48,6 +48,10 @@ pub(super) fn improve(mesh: &mut Mesh, options: &ParcelOptions, bench: &mut Benc
                     continue;
                 }
                 tried.insert(key, stamp);
+                // A big green behind a lot offers thousands of chords and no gain.
+                if mesh.area(r) + mesh.area(q) > 4.5 * options.depth * options.width {
+                    continue;
+                }
                 let now = here + piece_cost(mesh, q, options, bench);
                 let Some(union) = mesh.union(r, q) else { continue };
                 if let Some((c, change)) = best_change(&union.shape, now - 0.03, options, bench) {
@@ -131,7 +135,7 @@ fn best_change(
     for side in sides.chains(options) {
         let Some(row) = Row::new(shape, &side, options) else { continue };
         let l = row.length();
-        let steps = (l / (0.1 * options.width)).ceil().clamp(2.0, 40.0) as usize;
+        let steps = (l / (0.17 * options.width)).ceil().clamp(2.0, 24.0) as usize;
         for k in 1..steps {
             let s = l * k as f64 / steps as f64;
             let normal = row.normal(s);

@@ -101,8 +101,12 @@ pub fn parcel(block: &Block, options: &ParcelOptions) -> Vec<Piece> {
     }
     let mut bench = Bench::default();
     let parts = search::plan(&shape, options, &mut bench);
+    #[cfg(feature = "stat")]
+    let n1 = bench.measured;
     let mut mesh = weld::Mesh::new(&shape, &parts, options);
     improve::improve(&mut mesh, options, &mut bench);
+    #[cfg(feature = "stat")]
+    if shape.area() > 0.0 { eprintln!("stat {} {} {}", (shape.area() / 540.0) as usize, n1, bench.measured - n1); }
     mesh.settle_kinds(options);
     if !mesh.holds(&shape) {
         return whole();

@@ -5,7 +5,7 @@
 //! half a degree are dropped first, then a corner is a vertex that turns by
 //! more than 20 degrees, and a reflex right angle is a right angle.
 
-use super::geom::{angle, area, cross, dist, dot, norm, P};
+use super::geom::{cross, dist, dot, norm, P};
 use super::ParcelOptions;
 
 /// Tangent of half a degree: below it a vertex counts as straight.
@@ -47,30 +47,31 @@ pub(super) struct Scratch {
 }
 
 /// Measures a ring; `front[i]` says whether edge i gives access.
+///
+/// The search lives on this function: a convex ring is its own hull, and the
+/// corners' angles need no arc tangents.
 pub(super) fn measure(ring: &[P], front: &[bool], scratch: &mut Scratch) -> Quality {
     let n = ring.len();
     let mut frontage = 0.0;
+    let (o, mut twice) = (ring[0], 0.0);
     for i in 0..n {
+        let next = ring[if i + 1 < n { i + 1 } else { 0 }];
         if front[i] {
-            frontage += dist(ring[i], ring[(i + 1) % n]);
+            frontage += dist(ring[i], next);
         }
+        twice += cross(ring[i] - o, next - o);
     }
-    let area = area(ring);
+    let area = 0.5 * twice;
     clean(ring, &mut scratch.clean);
-    let deviation = deviation(&scratch.clean);
-    let (box_area, aspect) = smallest_box(scratch);
-    let ratio = if area > 0.0 {
-        (box_area / area).max(1.0)
+    let (deviation, convex) = corners(&scratch.clean);
+    let (box_area, aspect) = if convex {
+        smallest_box(&scratch.clean)
     } else {
-        f64::INFINITY
+        hull(&mut scratch.clean, &mut scratch.hull);
+        smallest_box(&scratch.hull)
     };
-    Quality {
-        area,
-        deviation,
-        ratio,
-        aspect,
-        frontage,
-    }
+    let ratio = if area > 0.0 { (box_area / area).max(1.0) } else { f64::INFINITY };
+    Quality { area, deviation, ratio, aspect, frontage }
 }
 
 /// Copies the ring without its straight vertices.
@@ -80,7 +81,7 @@ fn clean(ring: &[P], out: &mut Vec<P>) {
     let straight = |a: P, b: P, c: P| {
         let (u, v) = (b - a, c - b);
         let (x, d) = (cross(u, v), dot(u, v));
-        dot(v, v) < 1e-12 || dot(u, u) < 1e-12 || (d > 0.0 && x.abs() < STRAIGHT * d)
+        (d > 0.0 && x.abs() < STRAIGHT * d) || dot(v, v) < 1e-12 || dot(u, u) < 1e-12
     };
     // Each removal changes its neighbours' turns, so go round until none is
     // left; rings are short and most passes find nothing.
@@ -89,7 +90,8 @@ fn clean(ring: &[P], out: &mut Vec<P>) {
         let mut i = 0;
         while i < out.len() && out.len() > 3 {
             let m = out.len();
-            if straight(out[(i + m - 1) % m], out[i], out[(i + 1) % m]) {
+            let (a, c) = (if i > 0 { i - 1 } else { m - 1 }, if i + 1 < m { i + 1 } else { 0 });
+            if straight(out[a], out[i], out[c]) {
                 out.remove(i);
             } else {
                 i += 1;
@@ -101,49 +103,71 @@ fn clean(ring: &[P], out: &mut Vec<P>) {
     }
 }
 
-/// Mean deviation of the corners of a cleaned ring, degrees.
-fn deviation(ring: &[P]) -> f64 {
+/// Mean deviation of the corners of a cleaned ring from a right angle,
+/// degrees, and whether the ring is convex.
+fn corners(ring: &[P]) -> (f64, bool) {
     let n = ring.len();
-    let (mut sum, mut count) = (0.0, 0usize);
+    let (mut sum, mut count, mut convex, mut turning) = (0.0, 0usize, true, 0usize);
+    let mut u = ring[0] - ring[n - 1];
+    let mut lu = norm(u);
     for i in 0..n {
-        let (u, v) = (ring[i] - ring[(i + n - 1) % n], ring[(i + 1) % n] - ring[i]);
-        if dot(u, v) > CORNER_COS * norm(u) * norm(v) {
-            continue;
+        let v = ring[if i + 1 < n { i + 1 } else { 0 }] - ring[i];
+        let lv = norm(v);
+        let c = dot(u, v);
+        if cross(u, v) < 0.0 {
+            convex = false;
         }
-        let turn = angle(u, v).to_degrees().abs();
-        sum += (turn - 90.0).abs();
-        count += 1;
+        // Turning by more than a right angle three times at most: else the
+        // ring winds more than once and is not convex after all.
+        turning += usize::from(c < 0.0);
+        if c <= CORNER_COS * lu * lv {
+            sum += arc_sine((c / (lu * lv)).abs().min(1.0));
+            count += 1;
+        }
+        (u, lu) = (v, lv);
     }
-    if count == 0 {
-        0.0
-    } else {
-        sum / count as f64
-    }
+    let mean = if count == 0 { 0.0 } else { (sum / count as f64).to_degrees() };
+    (mean, convex && turning <= 4)
 }
 
-/// Area and aspect of the smallest rectangle around the cleaned ring.
-fn smallest_box(scratch: &mut Scratch) -> (f64, f64) {
-    hull(&mut scratch.clean, &mut scratch.hull);
-    let hull = &scratch.hull;
+/// Arc sine on [0, 1] to 2e-8 (Abramowitz and Stegun 4.4.46).
+fn arc_sine(x: f64) -> f64 {
+    const C: [f64; 8] = [
+        1.570_796_305_0,
+        -0.214_598_801_6,
+        0.088_978_987_4,
+        -0.050_174_304_6,
+        0.030_891_881_0,
+        -0.017_088_125_6,
+        0.006_670_090_1,
+        -0.001_262_491_1,
+    ];
+    let poly = C.iter().rev().fold(0.0, |acc, &c| acc * x + c);
+    (std::f64::consts::FRAC_PI_2 - (1.0 - x).max(0.0).sqrt() * poly).max(0.0)
+}
+
+/// Area and aspect of the smallest rectangle around a convex ring.
+fn smallest_box(hull: &[P]) -> (f64, f64) {
     let n = hull.len();
     let mut best = (f64::INFINITY, 1.0);
     for i in 0..n {
         let e = hull[(i + 1) % n] - hull[i];
-        let l = norm(e);
+        let l = dot(e, e);
         if l <= 0.0 {
             continue;
         }
-        let (mut lo, mut hi, mut top) = (f64::INFINITY, f64::NEG_INFINITY, 0.0f64);
+        let (mut lo, mut hi, mut top) = (0.0f64, 0.0f64, 0.0f64);
         for &q in hull {
             let w = q - hull[i];
-            let along = dot(w, e) / l;
+            let along = dot(w, e);
             lo = lo.min(along);
             hi = hi.max(along);
-            top = top.max(cross(e, w).abs() / l);
+            top = top.max(cross(e, w).abs());
         }
+        // Both extents are scaled by the edge's length.
         let (a, b) = (hi - lo, top);
-        if a * b < best.0 {
-            best = (a * b, a.max(b) / a.min(b).max(1e-9));
+        if a * b < best.0 * l {
+            best = (a * b / l, a.max(b) / a.min(b).max(1e-9 * l));
         }
     }
     best
@@ -207,11 +231,14 @@ fn parcel_cost(q: &Quality, options: &ParcelOptions) -> f64 {
         c += 0.8 + (0.15 * (x - 1.0)).clamp(0.0, 0.4) + (0.12 * (y - 1.0)).clamp(0.0, 1.2);
     }
     let s = a.ln();
-    c += 0.12 * s * s;
+    c += 0.15 * s * s;
+    // Above about 1.3 lots a through lot would do for two: it must be dearer
+    // than two rows back to back, and cheaper than a lot with a green behind.
+    c += (0.5 * (a - 1.3)).clamp(0.0, 0.35);
     if a < 0.6 {
         c += 0.3 + 1.2 * (0.6 - a);
     } else if a > 2.0 {
-        c += 0.3 + 0.5 * (a - 2.0).min(4.0);
+        c += 0.2 + 0.5 * (a - 2.0).min(4.0);
     }
     if q.frontage < options.good_frontage {
         c += 0.2 + 0.6 * (1.0 - q.frontage / options.good_frontage);
@@ -223,7 +250,7 @@ fn parcel_cost(q: &Quality, options: &ParcelOptions) -> f64 {
 /// Cost of a piece as green land: mostly its area. A scrap that no street
 /// reaches is worth less than the same scrap on a street.
 fn green_cost(q: &Quality, options: &ParcelOptions) -> f64 {
-    let base = if q.frontage < options.min_frontage { 1.0 } else { 0.4 };
+    let base = if q.frontage < options.min_frontage { 1.3 } else { 0.6 };
     base + 2.1 * q.area.max(0.0) / (options.depth * options.width)
 }
 
@@ -243,7 +270,7 @@ mod tests {
         ];
         let front = [true, true, false, false, false];
         let q = measure(&ring, &front, &mut Scratch::default());
-        assert!(q.deviation < 1e-12 && (q.ratio - 1.0).abs() < 1e-12);
+        assert!(q.deviation < 1e-4 && (q.ratio - 1.0).abs() < 1e-12);
         assert!((q.frontage - 18.0).abs() < 1e-12 && (q.aspect - 30.0 / 18.0).abs() < 1e-12);
         assert!(cost(&q, &ParcelOptions::default()) < 1e-9);
     }
@@ -267,6 +294,6 @@ mod tests {
             pt(0., 4.),
         ];
         let q = measure(&l, &[true; 6], &mut Scratch::default());
-        assert!(q.deviation < 1e-12 && (q.ratio - 16.0 / 12.0).abs() < 1e-12);
+        assert!(q.deviation < 1e-4 && (q.ratio - 16.0 / 12.0).abs() < 1e-12);
     }
 }

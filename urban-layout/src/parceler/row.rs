@@ -327,19 +327,13 @@ impl Row {
         let n0 = count(l, w);
         let mut best: Option<(f64, Vec<Rung>)> = None;
         let leaning = self.slant[0].abs() + self.slant[1].abs() > 0.05;
-        let mut tries: Vec<(usize, bool, f64)> = Vec::new();
-        for n in [n0, n0 + 1, n0.saturating_sub(1)] {
-            if n == 0 || l / (n as f64) < options.min_frontage {
-                continue;
-            }
-            tries.push((n, false, 0.0));
-            if leaning {
-                tries.push((n, true, f64::INFINITY));
-                tries.push((n, true, 2.5));
-                tries.push((n, true, 0.0));
-                tries.push((n, false, f64::INFINITY));
-            }
+        let other = if l / w > n0 as f64 { n0 + 1 } else { n0.saturating_sub(1) };
+        let mut tries = vec![(n0, false, 0.0)];
+        if leaning {
+            tries.extend([(n0, true, f64::INFINITY), (n0, true, 2.5)]);
         }
+        tries.push((other, leaning, if leaning { f64::INFINITY } else { 0.0 }));
+        tries.retain(|t| t.0 > 0 && l / (t.0 as f64) >= options.min_frontage);
         for (n, middle, fan) in tries {
             let Some(rungs) = self.spread(n, middle, fan, w) else {
                 continue;

@@ -228,6 +228,10 @@ impl Mesh {
         self.rings[r].iter().map(|&i| self.points[i]).collect()
     }
 
+    pub(super) fn area(&self, r: usize) -> f64 {
+        area(&self.ring(r))
+    }
+
     pub(super) fn shape(&self, r: usize) -> Shape {
         Shape {
             ring: self.ring(r),
