@@ -1,1 +1,22 @@
-//! .
+#![doc = include_str!("../README.md")]
+
+mod candidates;
+mod error;
+mod field;
+mod random;
+mod score;
+mod streamline;
+mod trace;
+mod vector;
+
+pub use geo_types;
+
+pub use candidates::{candidates, survey, CandidateOptions, Discarded, Seed, Survey, Unfit};
+pub use error::TraceError;
+pub use field::{arm_nearest, from_fn, Cursor, DirectionField, Exit, FromFn};
+pub use score::{
+    choose, distinct, rank, BoundaryDistance, BoundaryMeasure, BoundaryOptions, Continuity,
+    Divergence, Ranked, Score, SingularityDistance, WidthTable,
+};
+pub use streamline::{Sample, Streamline};
+pub use trace::{trace, Stop, TraceOptions};

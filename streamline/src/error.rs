@@ -1,0 +1,86 @@
+//! The one error type of the crate.
+
+use geo_types::Coord;
+
+/// Why tracing could not begin.
+///
+/// How a line *ends* is never an error: see [`Stop`](crate::Stop).
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TraceError {
+    /// An option has a value that no trace can work with.
+    #[error("option `{name}` is {value}, but it must be {expected}: correct the options")]
+    BadOption {
+        /// The field of the options struct.
+        name: &'static str,
+        /// The value that was given.
+        value: f64,
+        /// What the value has to be.
+        expected: &'static str,
+    },
+    /// A seed has a coordinate that is NaN or infinite.
+    #[error("seed {index} lies at ({x}, {y}), which is not finite: drop or repair it")]
+    SeedNotFinite {
+        /// Position in the list of seeds; 0 for a single trace.
+        index: usize,
+        /// East coordinate as given.
+        x: f64,
+        /// North coordinate as given.
+        y: f64,
+    },
+    /// A heading, or a direction of a seed, has no length or is not finite.
+    #[error(
+        "the heading ({x}, {y}) of seed {index} has no direction: give any non-zero finite vector"
+    )]
+    NoHeading {
+        /// Position in the list of seeds; 0 for a single trace.
+        index: usize,
+        /// East component as given.
+        x: f64,
+        /// North component as given.
+        y: f64,
+    },
+    /// The field has no direction at the seed: it lies outside the domain or
+    /// at a singularity.
+    ///
+    /// [`candidates`](crate::candidates) discards such seeds instead.
+    #[error("the field has no direction at the seed ({x}, {y}): move it inside the domain and off the singularity")]
+    NoDirection {
+        /// East coordinate of the seed.
+        x: f64,
+        /// North coordinate of the seed.
+        y: f64,
+    },
+}
+
+impl TraceError {
+    pub(crate) fn no_direction(at: Coord<f64>) -> Self {
+        Self::NoDirection { x: at.x, y: at.y }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_say_what_where_and_what_to_do() {
+        let text = TraceError::SeedNotFinite {
+            index: 7,
+            x: f64::NAN,
+            y: 1.0,
+        }
+        .to_string();
+        assert!(
+            text.contains("seed 7") && text.contains("NaN") && text.contains("drop"),
+            "{text}"
+        );
+        let text = TraceError::BadOption {
+            name: "step",
+            value: -1.0,
+            expected: "positive",
+        }
+        .to_string();
+        assert!(text.contains("`step` is -1"), "{text}");
+    }
+}

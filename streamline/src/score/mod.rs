@@ -1,0 +1,63 @@
+//! What makes a streamline a good place for a street: four costs and a ranking.
+
+mod boundary;
+mod continuity;
+mod distinct;
+mod divergence;
+mod rank;
+mod rays;
+mod singularity;
+mod width;
+
+pub use boundary::{BoundaryDistance, BoundaryMeasure, BoundaryOptions};
+pub use continuity::Continuity;
+pub use distinct::distinct;
+pub use divergence::Divergence;
+pub use rank::{choose, rank, Ranked};
+pub use singularity::SingularityDistance;
+pub use width::WidthTable;
+
+use crate::field::DirectionField;
+use crate::streamline::Streamline;
+
+/// What one quality of a candidate costs: lower is better.
+///
+/// Costs of different scores need share no unit, for [`rank`] normalises each
+/// over the candidates.
+///
+/// # Examples
+///
+/// A score of one's own: streets should run north.
+///
+/// ```
+/// use streamline::{DirectionField, Score, Streamline};
+///
+/// struct North;
+/// impl Score for North {
+///     fn name(&self) -> &str {
+///         "north"
+///     }
+///     fn cost(&self, line: &Streamline, _: &dyn DirectionField) -> f64 {
+///         let samples = line.samples(5.0);
+///         samples.iter().map(|s| s.tangent.x.abs() * s.length).sum::<f64>() / line.length()
+///     }
+/// }
+/// ```
+pub trait Score: Sync {
+    /// A short name for reports, such as `divergence`.
+    fn name(&self) -> &str;
+
+    /// The cost of one candidate of a field. A cost that is not finite counts
+    /// as the worst.
+    fn cost(&self, line: &Streamline, field: &dyn DirectionField) -> f64;
+}
+
+impl<T: Score + ?Sized> Score for &T {
+    fn name(&self) -> &str {
+        (**self).name()
+    }
+
+    fn cost(&self, line: &Streamline, field: &dyn DirectionField) -> f64 {
+        (**self).cost(line, field)
+    }
+}
