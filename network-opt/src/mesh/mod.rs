@@ -1,0 +1,25 @@
+//! The planar half-edge mesh: built from linework, walked, split, edited and
+//! checked.
+//!
+//! In the order of the data: `arrange` turns linework into points and edges
+//! that meet only at points, `build` links them into loops and faces,
+//! `planar` is the structure and its walks, `rings` its geometry, `split`
+//! and `edit` change it, `locate` finds places in it, `check` proves it
+//! sound.
+
+mod arrange;
+mod build;
+mod check;
+mod edit;
+mod index;
+mod locate;
+mod planar;
+pub(crate) mod predicates;
+mod rings;
+pub(crate) mod sound;
+mod split;
+
+pub use arrange::Wire;
+pub use locate::Locator;
+pub use planar::{FaceId, HalfEdgeId, PlanarMesh, VertexId};
+pub use split::{End, Split};
