@@ -3,7 +3,7 @@
 use super::geom::{angle, cross, dist, dot, left, lerp, nearest_on, ray_hit, unit, P};
 use super::search::beyond;
 use super::shape::{Chain, Mark, Shape};
-use super::trace::{level_lines, Base, Level, Path};
+use super::trace::{level_lines, simplify, Base, Level, Path};
 use super::ParcelOptions;
 
 /// Pairs of shapes that candidate cuts leave: left and right of the cut.
@@ -21,6 +21,17 @@ pub(super) fn cuts(shape: &Shape, options: &ParcelOptions) -> Vec<(Shape, Shape)
         .iter()
         .filter_map(|p| shape.cut(p.from, &p.inner, p.to))
         .collect()
+}
+
+/// A front as a line to measure from: without detail far below a lot's size,
+/// which a level line would not show and which costs time at every step.
+fn base_line(shape: &Shape, chain: &Chain, options: &ParcelOptions) -> Vec<P> {
+    let p = shape.chain_points(chain);
+    let (a, b) = (p[0], p[p.len() - 1]);
+    let mut out = vec![a];
+    out.extend(simplify(a, &p[1..p.len() - 1], b, 0.004 * options.depth));
+    out.push(b);
+    out
 }
 
 fn step(options: &ParcelOptions) -> f64 {
@@ -130,7 +141,7 @@ fn locate(shape: &Shape, q: P, snap: f64) -> Option<Mark> {
 /// Lines at a row's depth behind each front.
 fn offsets(shape: &Shape, chains: &[Chain], options: &ParcelOptions, out: &mut Vec<Path>) {
     for c in chains.iter().take(4) {
-        let base = Base::new(shape.chain_points(c), true);
+        let base = Base::new(base_line(shape, c, options), true);
         for d in [1.0, 1.35, 1.7, 0.8] {
             let level = Level::At(base.clone(), d * options.depth);
             out.extend(level_lines(shape, &level, step(options), options.snap()));

@@ -92,7 +92,7 @@ fn piece_cost(mesh: &Mesh, r: usize, options: &ParcelOptions, bench: &mut Bench)
 }
 
 fn price(ring: &[P], front: &[bool], options: &ParcelOptions, bench: &mut Bench) -> f64 {
-    bench.measured += 1;
+    bench.work += 1;
     cost(&measure(ring, front, &mut bench.scratch), options)
 }
 
@@ -168,7 +168,7 @@ fn best_change(
 
 /// Price of the parcel on the bench, as the kind that costs less.
 fn price_bench(options: &ParcelOptions, bench: &mut Bench) -> f64 {
-    bench.measured += 1;
+    bench.work += 1 + bench.ring.len() / 8;
     let q = measure(&bench.ring, &bench.front, &mut bench.scratch);
     cost(&q, options)
 }

@@ -10,6 +10,8 @@ mod quality;
 mod row;
 mod search;
 mod shape;
+#[cfg(test)]
+mod tests;
 mod trace;
 mod weld;
 
@@ -102,16 +104,23 @@ pub fn parcel(block: &Block, options: &ParcelOptions) -> Vec<Piece> {
     let mut bench = Bench::default();
     let parts = search::plan(&shape, options, &mut bench);
     #[cfg(feature = "stat")]
-    let n1 = bench.measured;
-    let mut mesh = weld::Mesh::new(&shape, &parts, options);
+    let n1 = bench.work;
+    let plain = weld::Mesh::new(&shape, &parts, options);
+    let mut mesh = plain.clone();
     improve::improve(&mut mesh, options, &mut bench);
     #[cfg(feature = "stat")]
-    if shape.area() > 0.0 { eprintln!("stat {} {} {}", (shape.area() / 540.0) as usize, n1, bench.measured - n1); }
-    mesh.settle_kinds(options);
-    if !mesh.holds(&shape) {
-        return whole();
+    if shape.area() > 0.0 { eprintln!("stat {} {} {}", (shape.area() / 540.0) as usize, n1, bench.work - n1); }
+    // What is returned is proved, not hoped: rounding could, in a freak case,
+    // let a dividing line graze another.
+    for mut mesh in [mesh, plain] {
+        if mesh.holds(&shape) {
+            mesh.settle_kinds(options);
+            return mesh.pieces(&block.ring, origin);
+        }
+        #[cfg(feature = "stat")]
+        eprintln!("doesnothold {}", shape.area());
     }
-    mesh.pieces(&block.ring, origin)
+    whole()
 }
 
 /// Options with every length positive and finite.

@@ -243,7 +243,7 @@ fn parcel_cost(q: &Quality, options: &ParcelOptions) -> f64 {
     if q.frontage < options.good_frontage {
         c += 0.2 + 0.6 * (1.0 - q.frontage / options.good_frontage);
     }
-    c += (0.3 * (q.aspect - 3.0)).clamp(0.0, 1.0);
+    c += (0.3 * (q.aspect - 3.0)).clamp(0.0, 4.0);
     c * 0.5 * (1.0 + a)
 }
 

@@ -43,8 +43,9 @@ pub(super) struct Bench {
     pub(super) ring: Vec<P>,
     pub(super) front: Vec<bool>,
     pub(super) scratch: Scratch,
-    /// Parcels measured so far: the search's budget counts them.
-    pub(super) measured: usize,
+    /// Work done so far, about in parcels measured: the search's budget
+    /// counts it.
+    pub(super) work: usize,
 }
 
 impl Row {
@@ -269,7 +270,7 @@ impl Row {
         bench: &mut Bench,
     ) -> (f64, Quality) {
         self.parcel(a, b, bench);
-        bench.measured += 1;
+        bench.work += 1 + bench.ring.len() / 8;
         let q = measure(&bench.ring, &bench.front, &mut bench.scratch);
         (cost(&q, options), q)
     }

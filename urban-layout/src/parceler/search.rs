@@ -33,7 +33,7 @@ pub(super) struct Plan {
 }
 
 /// How many cuts are taken further at each level.
-const BEAM: [usize; 4] = [6, 3, 2, 1];
+const BEAM: [usize; 4] = [4, 2, 1, 1];
 /// A shape is clean, and not cut further, below this cost per parcel.
 const CLEAN: f64 = 0.08;
 
@@ -46,10 +46,10 @@ pub(super) fn plan(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) ->
     // The levels reach for a few rows. What they leave in a poor state is
     // planned again by itself, with all levels, as long as that gains.
     while let Some((shape, was, round)) = work.pop() {
-        let start = bench.measured;
+        let start = bench.work;
         let share = if round == 0 { left / 2 } else { left / 4 };
         let best = deepen(&shape, options, bench, 0, start + share);
-        left = left.saturating_sub(bench.measured - start);
+        left = left.saturating_sub(bench.work - start);
         let split = best.leaves.len() > 1 && best.cost < was - 1e-6;
         for (c, leaf) in best.leaves {
             let lots = leaf.area() / (options.depth * options.width);
@@ -96,7 +96,7 @@ impl Leaf {
 /// The shape without structural cuts: one piece or one row.
 fn quick(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) -> Plan {
     let area = shape.area();
-    bench.measured += 1;
+    bench.work += 1;
     let c = cost(&measure(&shape.ring, &shape.front, &mut bench.scratch), options);
     let mut best = Plan { cost: c, leaves: vec![(c, Leaf::Whole(shape.clone()))] };
     if area < 0.9 * options.depth * options.width || shape.frontage() < options.min_frontage {
@@ -141,8 +141,11 @@ fn deepen(
         return best;
     }
     let mut found: Vec<(f64, Shape, Shape)> = Vec::new();
-    for (l, r) in cuts(shape, options) {
-        if bench.measured > budget {
+    let candidates = cuts(shape, options);
+    // Tracing and shooting cost by the vertex, not by the parcel.
+    bench.work += candidates.len() * shape.len() / 10;
+    for (l, r) in candidates {
+        if bench.work > budget {
             break;
         }
         if l.area().min(r.area()) < 0.1 * unit {
@@ -153,7 +156,7 @@ fn deepen(
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     for (c, l, r) in found.into_iter().take(BEAM[level]) {
-        if bench.measured > budget && c >= best.cost {
+        if bench.work > budget && c >= best.cost {
             break;
         }
         let pl = deepen(&l, options, bench, level + 1, budget);
