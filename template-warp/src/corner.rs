@@ -77,10 +77,18 @@ pub fn corners(ring: &[P], options: &CornerOptions) -> Vec<Corner> {
 
     let mut found: Vec<(usize, f64, bool)> = Vec::new();
     let mut taken = vec![false; n];
-    // Sharpest vertex first: it gathers the turns around it.
+    // Sharpest vertex first: it gathers the turns around it. The wider sums
+    // decide among the vertices of an arc for the one in its middle.
     let mut order: Vec<usize> = (0..n).collect();
-    let score = |i: usize| stretch.sum(i, 0.5 * span, &[]).0.abs();
-    let scores: Vec<f64> = (0..n).map(|i| score(i) + 0.5 * turns[i].abs()).collect();
+    let scores: Vec<f64> = (0..n)
+        .map(|i| {
+            let (near, wide) = (
+                stretch.sum(i, 0.5 * span, &taken).0,
+                stretch.sum(i, 1.5 * span, &taken).0,
+            );
+            near.abs() + 0.5 * turns[i].abs() + 0.2 * wide.abs()
+        })
+        .collect();
     order.sort_by(|&i, &j| scores[j].total_cmp(&scores[i]).then(i.cmp(&j)));
     for &i in &order {
         if taken[i] {
@@ -98,21 +106,33 @@ pub fn corners(ring: &[P], options: &CornerOptions) -> Vec<Corner> {
         }
         // Turning on at the same rate outside the span means a curve.
         let curve = (wide - near).abs() > 0.9 * near.abs() && turns[i].abs() < 0.7 * near.abs();
-        if total.abs() >= threshold && !curve {
-            let at = centre_of(&gathered, &turns, i);
-            found.push((at, total, total.abs() >= firm));
-            for &j in &gathered {
-                taken[j] = true;
+        if curve {
+            // A quarter turn or so within three spans is offered to matching,
+            // though never forced on it; a longer curve is offered in pieces.
+            (total, gathered) = stretch.gather(i, 3.0 * span, &taken);
+            if total.abs() < firm {
+                continue;
             }
+        } else if total.abs() < threshold {
+            continue;
+        }
+        found.push((
+            centre_of(&gathered, &turns, i),
+            total,
+            !curve && total.abs() >= firm,
+        ));
+        for &j in &gathered {
+            taken[j] = true;
         }
     }
-    // Broad corners: a quarter turn or so within three spans is offered to
-    // matching, though never forced on it.
+    // Rounder still: the turn within the span is no corner, within three it is.
     for &i in &order {
-        let (wide, members) = stretch.sum(i, 1.5 * span, &taken);
-        if !taken[i] && wide.abs() >= firm && turns[i] * wide > 0.0 {
-            let at = centre_of(&members, &turns, i);
-            found.push((at, wide, false));
+        if taken[i] {
+            continue;
+        }
+        let (total, members) = stretch.gather(i, 3.0 * span, &taken);
+        if total.abs() >= firm {
+            found.push((centre_of(&members, &turns, i), total, false));
             for &j in &members {
                 taken[j] = true;
             }

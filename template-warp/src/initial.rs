@@ -19,10 +19,7 @@ pub(crate) fn side_arc_lengths(template: &Template, side: &Side, total: f64) -> 
         .windows(2)
         .map(|e| {
             let drawn = norm(template.points[e[1]] - template.points[e[0]]);
-            (
-                drawn,
-                divide_of(template, e[0], e[1]).map(|d| template.divides[d].length),
-            )
+            (drawn, least_length(template, e[0], e[1]))
         })
         .collect();
     let fixed: f64 = edges.iter().filter(|e| e.1.is_none()).map(|e| e.0).sum();
@@ -30,7 +27,7 @@ pub(crate) fn side_arc_lengths(template: &Template, side: &Side, total: f64) -> 
     let least: f64 = edges
         .iter()
         .filter_map(|e| e.1)
-        .map(|part| 0.6 * part)
+        .map(|least| 0.6 * least)
         .sum();
     let (fixed_scale, elastic_scale) = if elastic > 0.0 && total - fixed >= least {
         (1.0, (total - fixed) / elastic)
@@ -60,6 +57,20 @@ pub(crate) fn divide_of(template: &Template, a: usize, b: usize) -> Option<usize
         .divides
         .iter()
         .position(|d| d.edges.iter().any(|e| *e == [a, b] || *e == [b, a]))
+}
+
+/// Least length of an edge that may be stretched, metres, or nothing for edges
+/// that keep their drawn length.
+pub(crate) fn least_length(template: &Template, a: usize, b: usize) -> Option<f64> {
+    if let Some(d) = divide_of(template, a, b) {
+        let divide = &template.divides[d];
+        return Some(divide.length * divide.min as f64);
+    }
+    template
+        .elastic
+        .iter()
+        .any(|e| *e == [a, b] || *e == [b, a])
+        .then_some(0.0)
 }
 
 /// Mean value coordinates of `q` in a polygon: weights that sum to 1 and whose

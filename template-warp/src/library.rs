@@ -8,7 +8,13 @@ use crate::template::model::Template;
 use std::sync::Arc;
 
 /// The files of the standard library, in the order of preference at equal cost.
-const STANDARD: &[(&str, &str)] = &[("rows", include_str!("library/rows.toml"))];
+const STANDARD: &[(&str, &str)] = &[
+    ("rows", include_str!("library/rows.toml")),
+    ("corners", include_str!("library/corners.toml")),
+    ("wedges", include_str!("library/wedges.toml")),
+    ("parks", include_str!("library/parks.toml")),
+    ("spikes", include_str!("library/spikes.toml")),
+];
 
 /// Templates with the sizes that their letters stand for.
 ///

@@ -5,7 +5,7 @@
 
 use crate::corner::{corners, Corner, CornerOptions};
 use crate::geometry::{box_centre, dist, norm, P};
-use crate::initial::divide_of;
+use crate::initial::{divide_of, least_length};
 use crate::library::Library;
 use crate::region::{EdgeUse, Region};
 use crate::template::format::SideUse;
@@ -282,14 +282,17 @@ impl Boundary {
             if !fits {
                 return None;
             }
-            let (mut fixed, mut least) = (0.0, 0.0);
+            let (mut fixed, mut least, mut elastic) = (0.0, 0.0, false);
             for e in side.nodes.windows(2) {
-                match divide_of(template, e[0], e[1]) {
-                    Some(d) => least += template.divides[d].length * template.divides[d].min as f64,
+                match least_length(template, e[0], e[1]) {
+                    Some(l) => {
+                        elastic = true;
+                        least += l;
+                    }
                     None => fixed += norm(template.points[e[1]] - template.points[e[0]]),
                 }
             }
-            sum += if least == 0.0 {
+            sum += if !elastic {
                 (length / fixed).ln().abs()
             } else {
                 ((fixed + least) / length).ln().max(0.0)

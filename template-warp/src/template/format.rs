@@ -29,6 +29,8 @@ pub(crate) struct Spec {
     pub(crate) corners: BTreeMap<String, CornerSpec>,
     pub(crate) sides: Vec<SideUse>,
     #[serde(default)]
+    pub(crate) elastic: Vec<[String; 2]>,
+    #[serde(default)]
     pub(crate) divide: Vec<DivideSpec>,
     #[serde(default)]
     pub(crate) arc: Vec<ArcSpec>,

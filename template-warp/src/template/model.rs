@@ -26,6 +26,8 @@ pub struct Template {
     /// Turn of the outline at the start of each side, radians.
     pub(crate) turns: Vec<f64>,
     pub(crate) divides: Vec<Divide>,
+    /// Edges of the outline that take up slack without being divided.
+    pub(crate) elastic: Vec<[usize; 2]>,
     pub(crate) arcs: Vec<ArcRun>,
     pub(crate) faces: Vec<Face>,
     pub(crate) alignments: Vec<Alignment>,
@@ -313,6 +315,11 @@ impl Template {
                 min: d.min.max(1),
             });
         }
+        let elastic = spec
+            .elastic
+            .iter()
+            .map(|e| Ok([find(&e[0])?, find(&e[1])?]))
+            .collect::<Result<Vec<_>, WarpError>>()?;
         let arcs = spec
             .arc
             .iter()
@@ -360,6 +367,7 @@ impl Template {
             sides,
             turns,
             divides,
+            elastic,
             arcs,
             faces,
             alignments,
