@@ -234,9 +234,10 @@ mod tests {
             measure: BoundaryMeasure::Nearest,
             step: 1.0,
         };
-        // 40 everywhere but within 40 m of the two ends, where it falls to 0:
-        // 15 * 220 + 2 * integral over d from 0 to 40 of |d - 25|, by 300.
-        let expected = (15.0 * 220.0 + 2.0 * (25.0 * 25.0 / 2.0 + 15.0 * 15.0 / 2.0)) / 300.0;
+        // 40 m, 10 m short of 2 * 25, everywhere but within 40 m of the two ends,
+        // where it falls to 0: the triangles below 25, up to 37.5, and back.
+        let ends = 25.0 * 25.0 / 2.0 + 12.5 * 12.5 / 2.0 + 2.5 * (12.5 + 10.0) / 2.0;
+        let expected = (10.0 * 220.0 + 2.0 * ends) / 300.0;
         assert!((cost(40.0, nearest, &[25.0, 1000.0]) - expected).abs() < 0.01);
     }
 

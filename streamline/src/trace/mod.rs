@@ -40,7 +40,9 @@ use track::Track;
 ///
 /// Each step's *estimated* error stays below [`TraceOptions::tolerance`]; this
 /// is not a rigorous bound where the field has kinks, though the estimate sees
-/// them. Points of a line lie on the curve to that accuracy; chords cut corners
+/// them. A gap in the field narrower than half of [`TraceOptions::max_step`]
+/// may be stepped over if the domain goes on there (a hole of the domain never
+/// is). Points of a line lie on the curve to that accuracy; chords cut corners
 /// by up to curvature * step^2 / 8.
 ///
 /// # Errors
