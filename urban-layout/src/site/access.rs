@@ -57,7 +57,8 @@ impl AccessZones {
                 let share: f64 = self.stretches(w[0], w[1]).iter().map(|s| s[1] - s[0]).sum();
                 share * d.x.hypot(d.y)
             })
-            .sum()
+            // An empty sum is -0.
+            .fold(0.0, |sum, length| sum + length)
     }
 }
 

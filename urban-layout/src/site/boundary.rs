@@ -23,6 +23,15 @@ pub(crate) struct Boundary {
     pub(crate) tolerance: f64,
 }
 
+/// A point on the boundary.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    ring: usize,
+    /// Length along the ring.
+    along: f64,
+    at: Coord<f64>,
+}
+
 /// A line divided by how it lies to the boundary.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Divided {
@@ -96,7 +105,27 @@ impl Boundary {
     }
 
     fn project(&self, p: Coord<f64>) -> Coord<f64> {
-        self.segments.nearest(p).map_or(p, |(_, _, q)| q)
+        self.place(p).map_or(p, |place| place.at)
+    }
+
+    /// Where on the boundary a point beside it belongs: the nearest point, or
+    /// the vertex within [`ALONG`] of that, so that a road that starts beside a
+    /// corner starts at the corner.
+    fn place(&self, p: Coord<f64>) -> Option<Place> {
+        let (segment, mut t, mut at) = self.segments.nearest(p)?;
+        let gap = |q: Coord<f64>| (q - at).x.hypot((q - at).y);
+        let (a, b) = (gap(segment.a), gap(segment.b));
+        if a.min(b) <= ALONG {
+            (t, at) = if a <= b {
+                (0.0, segment.a)
+            } else {
+                (1.0, segment.b)
+            };
+        }
+        let (ring, k) = segment.id;
+        let lengths = &self.lengths[ring];
+        let along = lengths[k] + t * (lengths[k + 1] - lengths[k]);
+        Some(Place { ring, along, at })
     }
 
     /// The line cut where it begins and ceases to run along the boundary.
@@ -136,26 +165,23 @@ impl Boundary {
     fn snapped(&self, line: &[Coord<f64>]) -> Vec<Vec<Coord<f64>>> {
         let mut chains = Vec::new();
         let mut chain: Vec<Coord<f64>> = Vec::new();
-        let mut before: Option<(usize, f64, Coord<f64>)> = None;
+        let mut before: Option<Place> = None;
         for &p in line {
-            let Some((segment, t, q)) = self.segments.nearest(p) else {
+            let Some(here) = self.place(p) else {
                 return chains;
             };
-            let (ring, k) = segment.id;
-            let lengths = &self.lengths[ring];
-            let s = lengths[k] + t * (lengths[k + 1] - lengths[k]);
-            let between = before.and_then(|(r, from, at)| {
-                let gap = (q - at).x.hypot((q - at).y);
-                let (arc, vertices) = self.shorter_arc(ring, from, s);
+            let between = before.filter(|b| b.ring == here.ring).and_then(|before| {
+                let gap = (here.at - before.at).x.hypot((here.at - before.at).y);
+                let (arc, vertices) = self.shorter_arc(here.ring, before.along, here.along);
                 // Farther than that is another side of a narrow site.
-                (r == ring && arc <= 2.0 * gap + 10.0 * ALONG).then_some(vertices)
+                (arc <= 2.0 * gap + 10.0 * ALONG).then_some(vertices)
             });
             match between {
                 Some(vertices) => chain.extend(vertices),
                 None => chains.push(std::mem::take(&mut chain)),
             }
-            chain.push(q);
-            before = Some((ring, s, q));
+            chain.push(here.at);
+            before = Some(here);
         }
         chains.push(chain);
         chains

@@ -6,6 +6,7 @@ use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{RTree, AABB};
 
 use super::ring::Ring;
+use super::sweep::clearly_apart;
 
 /// An edge: its ring, and the position of its first vertex in the cleaned ring.
 pub(crate) type Edge = (usize, usize);
@@ -36,6 +37,14 @@ pub(crate) struct Contacts {
 }
 
 /// Finds the first crossing and, if there is none, all touches.
+pub(crate) fn contacts(rings: &[Ring], tolerance: f64) -> Contacts {
+    if clearly_apart(rings, tolerance) {
+        return Contacts::default();
+    }
+    contacts_by_index(rings, tolerance)
+}
+
+/// [`contacts`], for rings that have some.
 ///
 /// Orientation is decided exactly, on the coordinates given; a vertex that
 /// overshoots an edge by no more than the tolerance touches it, as do vertices that
@@ -45,7 +54,7 @@ pub(crate) struct Contacts {
 /// O(n log n) for outlines of real places. The index stores boxes, which fit
 /// slanted edges badly, so it works in that one of eight rotated frames in
 /// which the boxes are smallest: a comb of any direction stays cheap.
-pub(crate) fn contacts(rings: &[Ring], tolerance: f64) -> Contacts {
+pub(crate) fn contacts_by_index(rings: &[Ring], tolerance: f64) -> Contacts {
     let edges: Vec<Edge> = rings
         .iter()
         .enumerate()
@@ -119,7 +128,8 @@ pub(crate) fn contacts(rings: &[Ring], tolerance: f64) -> Contacts {
     found
 }
 
-fn neighbours(rings: &[Ring], a: Edge, b: Edge) -> bool {
+/// Whether two edges follow each other on their ring.
+pub(crate) fn neighbours(rings: &[Ring], a: Edge, b: Edge) -> bool {
     let n = rings[a.0].points.len();
     a.0 == b.0 && ((a.1 + 1) % n == b.1 || (b.1 + 1) % n == a.1)
 }
@@ -155,6 +165,15 @@ fn meet((a, b): (Coord<f64>, Coord<f64>), (c, d): (Coord<f64>, Coord<f64>), tol:
         return Meet::Cross(c + (d - c) * f);
     }
     Meet::Apart
+}
+
+/// Whether two edges neither cross nor come within the tolerance.
+pub(crate) fn apart(
+    first: (Coord<f64>, Coord<f64>),
+    second: (Coord<f64>, Coord<f64>),
+    tolerance: f64,
+) -> bool {
+    matches!(meet(first, second, tolerance), Meet::Apart)
 }
 
 /// Positive when `c` lies to the left of `a b`, exactly.
@@ -286,7 +305,7 @@ mod tests {
         points.push((f64::from(n) * 0.02 + 500.0, -10.0));
         points.push((0.0, -10.0));
         let start = std::time::Instant::now();
-        let found = contacts(&[ring(&points)], 1e-9);
+        let found = contacts_by_index(&[ring(&points)], 1e-9);
         assert!(found.crossing.is_none() && found.touches.is_empty());
         assert!(start.elapsed().as_secs_f64() < 10.0, "quadratic");
     }

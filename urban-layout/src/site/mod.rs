@@ -11,6 +11,7 @@ mod kind;
 mod polygon;
 mod read;
 mod ring;
+mod sweep;
 mod warning;
 
 use std::path::Path;
