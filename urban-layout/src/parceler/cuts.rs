@@ -141,12 +141,24 @@ fn locate(shape: &Shape, q: P, snap: f64) -> Option<Mark> {
 /// Lines at a row's depth behind each front.
 fn offsets(shape: &Shape, chains: &[Chain], options: &ParcelOptions, out: &mut Vec<Path>) {
     for c in chains.iter().take(4) {
-        let base = Base::new(base_line(shape, c, options), true);
-        for d in [1.0, 1.35, 1.7, 0.8] {
-            let level = Level::At(base.clone(), d * options.depth);
-            out.extend(level_lines(shape, &level, step(options), options.snap()));
-        }
+        out.extend(offsets_of(shape, c, &[1.0, 1.35, 1.7, 0.8], options));
     }
+}
+
+/// Lines behind one front, at these multiples of the wished depth.
+pub(super) fn offsets_of(
+    shape: &Shape,
+    chain: &Chain,
+    depths: &[f64],
+    options: &ParcelOptions,
+) -> Vec<Path> {
+    let base = Base::new(base_line(shape, chain, options), true);
+    let mut out = Vec::new();
+    for d in depths {
+        let level = Level::At(base.clone(), d * options.depth);
+        out.extend(level_lines(shape, &level, step(options), options.snap()));
+    }
+    out
 }
 
 /// The first thing that a ray from a mark meets.

@@ -41,7 +41,7 @@ pub(super) fn improve(mesh: &mut Mesh, options: &ParcelOptions, bench: &mut Benc
                 continue;
             }
             let mut best: Option<(f64, usize, Change)> = None;
-            for q in neighbours(mesh, r) {
+            for q in mesh.neighbours(r) {
                 let key = (r.min(q), r.max(q));
                 let stamp = (version[key.0], version[key.1]);
                 if tried.get(&key) == Some(&stamp) {
@@ -94,21 +94,6 @@ fn piece_cost(mesh: &Mesh, r: usize, options: &ParcelOptions, bench: &mut Bench)
 fn price(ring: &[P], front: &[bool], options: &ParcelOptions, bench: &mut Bench) -> f64 {
     bench.work += 1;
     cost(&measure(ring, front, &mut bench.scratch), options)
-}
-
-/// The pieces that share an edge with piece `r`, in order round it.
-fn neighbours(mesh: &Mesh, r: usize) -> Vec<usize> {
-    let mut out = Vec::new();
-    let ring = &mesh.rings[r];
-    for i in 0..ring.len() {
-        let twin = (ring[(i + 1) % ring.len()], ring[i]);
-        if let Some((q, _)) = mesh.find_edge(twin) {
-            if q != r && !out.contains(&q) {
-                out.push(q);
-            }
-        }
-    }
-    out
 }
 
 /// The cheapest way to use a shape as one or two pieces, if below `limit`.

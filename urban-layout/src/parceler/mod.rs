@@ -2,6 +2,7 @@
 //!
 //! (doc below is completed with the search)
 
+mod absorb;
 mod cuts;
 mod geom;
 mod improve;

@@ -7,6 +7,7 @@
 //! budget of measured parcels is spent. The budget counts work, not time, so
 //! that results do not depend on the machine.
 
+use super::absorb::absorb;
 use super::cuts::cuts;
 use super::geom::P;
 use super::ladder::refine;
@@ -40,9 +41,9 @@ const CLEAN: f64 = 0.08;
 /// Divides a simple ring; the parts tile it.
 pub(super) fn plan(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) -> Vec<Shape> {
     let lots = shape.area() / (options.depth * options.width);
-    let mut left = (6000.0 + 400.0 * lots.min(300.0)) as usize;
+    let mut left = (10000.0 + 1500.0 * lots.min(300.0)) as usize;
     let mut work = vec![(shape.clone(), f64::INFINITY, 0)];
-    let mut parts = Vec::new();
+    let mut leaves = Vec::new();
     // The levels reach for a few rows. What they leave in a poor state is
     // planned again by itself, with all levels, as long as that gains.
     while let Some((shape, was, round)) = work.pop() {
@@ -52,17 +53,24 @@ pub(super) fn plan(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) ->
         left = left.saturating_sub(bench.work - start);
         let split = best.leaves.len() > 1 && best.cost < was - 1e-6;
         for (c, leaf) in best.leaves {
-            let lots = leaf.area() / (options.depth * options.width);
-            if split && round < 6 && left > 500 && lots > 1.5 && c > 0.3 * lots && leaf.frontage() > options.good_frontage {
+            let lots = leaf.shape().area() / (options.depth * options.width);
+            let poor = lots > 1.5
+                && c > 0.3 * lots
+                && leaf.shape().frontage() > options.good_frontage;
+            if split && poor && round < 6 && left > 500 {
                 work.push((leaf.into_shape(), c, round + 1));
-                continue;
+            } else {
+                leaves.push((c, leaf));
             }
-            match leaf {
-                Leaf::Whole(shape) => parts.push(shape),
-                Leaf::Row(row, rungs) => {
-                    let (_, rungs) = refine(&row, c, &rungs, options, bench);
-                    parts.extend(row.shapes(&rungs, bench));
-                }
+        }
+    }
+    let mut parts = Vec::new();
+    for (c, leaf) in absorb(shape, leaves, options, bench) {
+        match leaf {
+            Leaf::Whole(shape) => parts.push(shape),
+            Leaf::Row(row, rungs) => {
+                let (_, rungs) = refine(&row, c, &rungs, options, bench);
+                parts.extend(row.shapes(&rungs, bench));
             }
         }
     }
@@ -70,7 +78,7 @@ pub(super) fn plan(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) ->
 }
 
 impl Leaf {
-    fn shape(&self) -> &Shape {
+    pub(super) fn shape(&self) -> &Shape {
         match self {
             Self::Whole(s) => s,
             Self::Row(r, _) => &r.shape,
@@ -83,18 +91,10 @@ impl Leaf {
             Self::Row(r, _) => r.shape,
         }
     }
-
-    fn area(&self) -> f64 {
-        self.shape().area()
-    }
-
-    fn frontage(&self) -> f64 {
-        self.shape().frontage()
-    }
 }
 
 /// The shape without structural cuts: one piece or one row.
-fn quick(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) -> Plan {
+pub(super) fn quick(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) -> Plan {
     let area = shape.area();
     bench.work += 1;
     let c = cost(&measure(&shape.ring, &shape.front, &mut bench.scratch), options);

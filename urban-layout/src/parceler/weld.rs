@@ -35,6 +35,11 @@ pub(super) struct Mesh {
 pub(super) struct Union {
     pub(super) ids: Vec<usize>,
     pub(super) shape: Shape,
+    /// Place on the ring where the first piece ends and the second begins;
+    /// the second ends, and the first begins, at place 0.
+    pub(super) joint: usize,
+    /// The edges that both had in common, from the joint to place 0.
+    pub(super) border: Vec<P>,
 }
 
 impl Mesh {
@@ -122,6 +127,21 @@ impl Mesh {
         id
     }
 
+    /// The pieces that share an edge with piece `r`, in order round it.
+    pub(super) fn neighbours(&self, r: usize) -> Vec<usize> {
+        let mut out = Vec::new();
+        let ring = &self.rings[r];
+        for i in 0..ring.len() {
+            let twin = (ring[(i + 1) % ring.len()], ring[i]);
+            if let Some((q, _)) = self.find_edge(twin) {
+                if q != r && !out.contains(&q) {
+                    out.push(q);
+                }
+            }
+        }
+        out
+    }
+
     /// Pieces `r` and `q` joined, if what they share is one stretch of edges.
     pub(super) fn union(&self, r: usize, q: usize) -> Option<Union> {
         let (a, b) = (&self.rings[r], &self.rings[q]);
@@ -158,7 +178,8 @@ impl Mesh {
             return None;
         }
         let ring = ids.iter().map(|&i| self.points[i]).collect();
-        Some(Union { ids, shape: Shape { ring, front } })
+        let border = (0..=len).map(|k| self.points[a[(start + k) % n]]).collect();
+        Some(Union { ids, shape: Shape { ring, front }, joint: n - len, border })
     }
 
     /// Forgets pieces that have been joined into others.
