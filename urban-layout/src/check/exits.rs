@@ -38,7 +38,12 @@ impl Exits {
             }
         }
         let boundary = Segments::of_lines(lines);
-        let given = || site.outside_streets.iter().chain(&site.roads);
+        let given = || {
+            site.outside_streets
+                .iter()
+                .chain(&site.roads)
+                .chain(&site.boundary_roads)
+        };
         let reach: Vec<f64> = given().map(|road| road.width / 2.0 + REACH).collect();
         let ways = Segments::of_lines(given().map(|road| road.line.0.as_slice()));
         let longest_reach = reach.iter().copied().fold(0.0, f64::max);

@@ -32,7 +32,7 @@ pub(crate) fn judge(site: &Site, layout: &Layout, findings: &mut Findings) {
     findings.none_of("given_elements", faults);
     let drawn = Segments::of_lines(layout.streets.iter().map(|s| s.line.0.as_slice()));
     let mut faults = Vec::new();
-    for road in &site.roads {
+    for road in site.roads.iter().chain(&site.boundary_roads) {
         let mut kept = 0.0;
         let mut stretches = Vec::new();
         for w in road.line.0.windows(2) {

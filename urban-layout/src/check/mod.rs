@@ -200,7 +200,8 @@ impl Findings {
             detail.truncate(self.details);
             detail.push(format!("and {more} more"));
         }
-        // NaN does not pass.
+        let measured = measured + 0.0; // a plain zero for -0
+                                       // NaN does not pass.
         let passed = measured <= allowed;
         self.laws.push(LawResult {
             law,

@@ -7,7 +7,7 @@ use rstar::{RTree, AABB};
 
 use super::network::{place, End, Node};
 use super::{CheckOptions, Exits, Findings, Network};
-use crate::layout::plane::{cross, distance, dot, lerp, minus, turn_deg};
+use crate::layout::plane::{cross, distance, dot, lerp, minus, turn_deg, usable};
 use crate::layout::Layout;
 use crate::site::RoadClass;
 
@@ -137,10 +137,16 @@ fn crowded(network: &Network<'_>, options: &CheckOptions) -> Vec<String> {
         .nodes
         .iter()
         .enumerate()
+        .filter(|(_, n)| usable(n.at))
         .map(|(i, n)| GeomWithData::new([n.at.x, n.at.y], i));
     let tree = RTree::bulk_load(points.collect::<Vec<_>>());
     let mut pairs = Vec::new();
-    for (i, node) in network.nodes.iter().enumerate() {
+    for (i, node) in network
+        .nodes
+        .iter()
+        .enumerate()
+        .filter(|(_, n)| usable(n.at))
+    {
         let reach = width[i];
         let low = [node.at.x - reach, node.at.y - reach];
         let high = [node.at.x + reach, node.at.y + reach];

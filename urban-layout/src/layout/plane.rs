@@ -36,6 +36,12 @@ pub(crate) fn cross(u: Coord<f64>, v: Coord<f64>) -> f64 {
     u.x * v.y - u.y * v.x
 }
 
+/// Whether a coordinate can be that of a point of a plan: finite, and nearer than
+/// the moon. What cannot is left out of indices and booleans.
+pub(crate) fn usable(c: Coord<f64>) -> bool {
+    c.x.abs() < 1e8 && c.y.abs() < 1e8
+}
+
 /// Distance between two points.
 pub(crate) fn distance(a: Coord<f64>, b: Coord<f64>) -> f64 {
     (a.x - b.x).hypot(a.y - b.y)
@@ -252,6 +258,7 @@ impl Segments {
                 index,
             }));
         }
+        all.retain(|s: &Segment| usable(s.a) && usable(s.b));
         Self(RTree::bulk_load(all))
     }
 
@@ -268,6 +275,7 @@ impl Segments {
                 index,
             }));
         }
+        all.retain(|s: &Segment| usable(s.a) && usable(s.b));
         Self(RTree::bulk_load(all))
     }
 
@@ -327,6 +335,7 @@ pub(crate) fn overlay<'a>(
     fn shapes<'a>(polygons: impl IntoIterator<Item = &'a Polygon<f64>>) -> Vec<Vec<Vec<[f64; 2]>>> {
         polygons
             .into_iter()
+            .filter(|p| rings(p).flat_map(|r| &r.0).all(|c| usable(*c)))
             .map(|p| {
                 rings(p)
                     .map(|r| open_ring(r).iter().map(|c| [c.x, c.y]).collect())

@@ -12,7 +12,7 @@ use geo_types::{Coord, LineString, MultiPolygon, Polygon};
 use rstar::primitives::GeomWithData;
 use rstar::{RTree, AABB};
 
-use super::plane::{dot, lerp, minus, nearest_parameter, open_ring, rings};
+use super::plane::{dot, lerp, minus, nearest_parameter, open_ring, rings, usable};
 
 /// Rounds of inserting vertices into edges before giving up; each round may
 /// bend an edge by the tolerance and so bring another vertex into reach.
@@ -30,6 +30,8 @@ pub struct SeamReport {
     pub collapsed: Vec<usize>,
     /// Holes that closed up and were removed, as (polygon, interior ring).
     pub closed_holes: Vec<(usize, usize)>,
+    /// Polygons left alone because a coordinate is no number or beyond 1e8 m.
+    pub unusable: Vec<usize>,
     /// Rings that now touch themselves at a vertex, as (polygon, ring), ring 0
     /// being the exterior; such a ring is not valid by OGC's rules.
     pub pinched: Vec<(usize, usize)>,
@@ -77,6 +79,13 @@ pub fn seam_to(
     tolerance: f64,
 ) -> SeamReport {
     let mut report = SeamReport::default();
+    let bad = |p: &Polygon<f64>| !rings(p).flat_map(|r| &r.0).all(|c| usable(*c));
+    report.unusable = (0..polygons.len()).filter(|i| bad(&polygons[*i])).collect();
+    let taken: Vec<(usize, Polygon<f64>)> = report
+        .unusable
+        .iter()
+        .map(|i| (*i, std::mem::replace(&mut polygons[*i], nothing())))
+        .collect();
     let (places, of) = merge_vertices(polygons, boundary, tolerance);
     // Rings as numbers of places.
     let mut chains: Vec<Vec<Vec<usize>>> = Vec::with_capacity(polygons.len());
@@ -125,6 +134,17 @@ pub fn seam_to(
         *polygon = Polygon::new(exterior, done.collect());
     }
     report
+        .collapsed
+        .retain(|i| report.unusable.binary_search(i).is_err());
+    for (number, polygon) in taken {
+        polygons[number] = polygon;
+    }
+    report
+}
+
+/// A polygon without vertices.
+fn nothing() -> Polygon<f64> {
+    Polygon::new(LineString::new(Vec::new()), Vec::new())
 }
 
 /// The bits of a coordinate.
