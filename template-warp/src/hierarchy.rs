@@ -2,7 +2,7 @@
 //! optimised, and hands its areas down as regions of their own.
 
 use crate::error::WarpError;
-use crate::geometry::{cross, dist, dot, norm, p, simplify, Path, P};
+use crate::geometry::{cross, dist, dot, norm, p, signed_area, simplify, Path, P};
 use crate::instance::{Domain, DomainSide, Instance};
 use crate::library::Library;
 use crate::region::EdgeUse;
@@ -45,15 +45,18 @@ pub(crate) struct Pieces {
 }
 
 impl Pieces {
-    /// Mean squared registration distance over the faces other than streets.
+    /// Mean squared registration distance over the faces other than streets,
+    /// weighted by their areas: one spoilt park counts like the parcels that
+    /// would have room in it.
     pub(crate) fn mean_square(&self) -> f64 {
-        let (sum, n) = self
-            .faces
-            .iter()
-            .filter(|f| f.label != "street")
-            .fold((0.0, 0.0), |(s, n), f| (s + f.mean_square, n + 1.0));
-        if n > 0.0 {
-            sum / n
+        let (mut sum, mut total) = (0.0, 0.0);
+        for face in self.faces.iter().filter(|f| f.label != "street") {
+            let area = signed_area(&face.ring).abs();
+            sum += area * face.mean_square;
+            total += area;
+        }
+        if total > 0.0 {
+            sum / total
         } else {
             0.0
         }

@@ -59,6 +59,89 @@ pub(crate) fn part_count(length: f64, part: f64, min: usize) -> usize {
     (n.min(MAX_PARTS as f64) as usize).max(min)
 }
 
+/// Most metres, as a share of the ideal part, by which an end part is widened.
+const MAX_EXTRA: f64 = 0.5;
+
+/// How an edge is divided.
+#[derive(Clone, Debug)]
+struct Parts {
+    /// Shares of the length at the divisions, without 0 and 1.
+    at: Vec<f64>,
+    /// Share of an ordinary part.
+    share: f64,
+    /// Length on the region over length in the drawing.
+    stretch: f64,
+}
+
+impl Parts {
+    fn new(length: f64, stretch: f64, part: f64, min: usize, ends: [f64; 2]) -> Self {
+        let extra = ends[0] + ends[1];
+        let rest = (length - extra).max(0.5 * length);
+        let n = part_count(rest, part, min);
+        if n < 2 || extra > 0.5 * length {
+            let n = part_count(length, part, min);
+            let share = 1.0 / n as f64;
+            return Self {
+                at: (1..n).map(|k| k as f64 * share).collect(),
+                share,
+                stretch,
+            };
+        }
+        let share = rest / (length * n as f64);
+        let at = (1..n)
+            .map(|k| ends[0] / length + k as f64 * share)
+            .collect();
+        Self { at, share, stretch }
+    }
+
+    /// The divisions seen from the start of the edge or from its end.
+    fn inner(&self, reversed: bool) -> Vec<f64> {
+        if reversed {
+            self.at.iter().rev().map(|t| 1.0 - t).collect()
+        } else {
+            self.at.clone()
+        }
+    }
+}
+
+/// Half the base of the triangle that each end of a row cuts from a rectangle,
+/// metres: at the start and at the end of side `k` of a domain with four sides.
+/// Seen from the direction of the side at that end, so that rows along curves
+/// have none.
+fn slanted_ends(domain: &Domain, k: usize) -> [f64; 2] {
+    let n = domain.sides.len();
+    if n != 4 {
+        return [0.0, 0.0];
+    }
+    let front = &domain.sides[k].path;
+    let back = &domain.sides[(k + 2) % n].path;
+    let l = front.length();
+    let at = |path: &Path, start: bool, depth: f64| {
+        let l = path.length();
+        let reach = 0.5 * depth.min(0.5 * l);
+        let d = if start {
+            path.at(reach) - path.at(0.0)
+        } else {
+            path.at(l) - path.at(l - reach)
+        };
+        d / norm(d).max(f64::MIN_POSITIVE)
+    };
+    let end = |start: bool| {
+        let (a, b) = if start {
+            (front.at(0.0), back.at(back.length()))
+        } else {
+            (front.at(l), back.at(0.0))
+        };
+        // Mean of both rows' directions, so that a taper is shared fairly.
+        let u = at(front, start, norm(b - a)) - at(back, !start, norm(b - a));
+        let u = u / norm(u).max(f64::MIN_POSITIVE);
+        // A slant of up to about 17 degrees needs no wider parcel.
+        let (off, depth) = (dot(b - a, u).abs(), cross(u, b - a).abs());
+        0.5 * (off - 0.3 * depth).max(0.0)
+    };
+    [end(true), end(false)]
+}
+
 impl<'a> Instance<'a> {
     /// Sets the template's corner i at the start of the domain's side i. Both
     /// have equally many sides.
@@ -99,39 +182,53 @@ impl<'a> Instance<'a> {
         };
 
         // Count the parts of each divide from the lengths on the boundary.
-        let counts: Vec<usize> = template
+        let parts: Vec<Parts> = template
             .divides
             .iter()
             .map(|d| {
-                let lengths: Vec<f64> = d
-                    .edges
+                let on_rim = |e: &[usize; 2]| side_of(e[0], e[1]).map(|k| (k, *e));
+                let rim: Vec<(usize, [usize; 2])> = d.edges.iter().filter_map(on_rim).collect();
+                let lengths: Vec<f64> = rim
                     .iter()
-                    .filter_map(|&[a, b]| {
-                        side_of(a, b).map(|k| (end_of(k, a, &param) - end_of(k, b, &param)).abs())
-                    })
+                    .map(|&(k, [a, b])| (end_of(k, a, &param) - end_of(k, b, &param)).abs())
                     .collect();
-                let mean = if lengths.is_empty() {
-                    dist(
-                        template.points[d.edges[0][0]],
-                        template.points[d.edges[0][1]],
-                    )
+                let of = |e: &[usize; 2]| dist(template.points[e[0]], template.points[e[1]]);
+                let (mean, drawn) = if lengths.is_empty() {
+                    (of(&d.edges[0]), of(&d.edges[0]))
                 } else {
-                    lengths.iter().sum::<f64>() / lengths.len() as f64
+                    let n = lengths.len() as f64;
+                    (
+                        lengths.iter().sum::<f64>() / n,
+                        rim.iter().map(|(_, e)| of(e)).sum::<f64>() / n,
+                    )
                 };
-                part_count(mean, d.length, d.min)
+                let ends = match rim.first() {
+                    Some(&(k, [a, b])) if d.wide_ends > 0.0 => {
+                        let extra = slanted_ends(domain, k)
+                            .map(|e| (e * d.wide_ends).min(MAX_EXTRA * d.length));
+                        // The side runs from its first node; the edge may not.
+                        if end_of(k, a, &param) > end_of(k, b, &param) {
+                            [extra[1], extra[0]]
+                        } else {
+                            extra
+                        }
+                    }
+                    _ => [0.0, 0.0],
+                };
+                Parts::new(mean, mean / drawn, d.length, d.min, ends)
             })
             .collect();
 
         // Nodes inside divided edges and arcs, first in the drawing.
         let mut drawn = template.points.clone();
         let mut inner: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
-        for (d, &k) in template.divides.iter().zip(&counts) {
+        for (d, parts) in template.divides.iter().zip(&parts) {
             for &[a, b] in &d.edges {
                 let (i, j) = (a.min(b), a.max(b));
                 let side = side_of(a, b);
                 let mut nodes = Vec::new();
-                for part in 1..k {
-                    let t = part as f64 / k as f64;
+                let reversed = (a, b) != (i, j);
+                for t in parts.inner(reversed) {
                     nodes.push(drawn.len());
                     drawn.push(template.points[i] + (template.points[j] - template.points[i]) * t);
                     match side {
@@ -224,7 +321,7 @@ impl<'a> Instance<'a> {
         let mut ideal_area = Vec::new();
         for face in &template.faces {
             let start = cells.len();
-            for (nodes, reference) in cut(template, face, &chain, &drawn) {
+            for (nodes, reference) in cut(template, face, &chain, &drawn, &parts) {
                 ideal_area.push(crate::geometry::signed_area(&reference));
                 cells.push(Cell::new(
                     nodes,
@@ -268,6 +365,7 @@ fn cut(
     face: &crate::template::model::Face,
     chain: &dyn Fn(usize, usize) -> Vec<usize>,
     drawn: &[P],
+    counted: &[Parts],
 ) -> Vec<(Vec<usize>, Vec<P>)> {
     let n = face.points.len();
     let edge = |i: usize| (face.points[i % n], face.points[(i + 1) % n]);
@@ -305,8 +403,13 @@ fn cut(
     let parts = bottom.len() - 1;
     let (o, u, l) = frame(edge(i).0, edge(i).1);
     // The drawing's divided edge holds some number of parts; stretch it along
-    // its own direction until each part has its ideal length.
-    let stretch = template.divides[d].length * parts as f64 / l;
+    // its own direction until each part has its ideal length. Areas are cut only
+    // to follow the region: their cells take the length that there is.
+    let stretch = if face.is_area() {
+        counted[d].stretch
+    } else {
+        template.divides[d].length / (counted[d].share * l)
+    };
     let to_frame = |k: usize| {
         let r = drawn[k] - o;
         let x = dot(r, u);

@@ -177,9 +177,9 @@ impl Problem {
                 };
                 energy = e;
             }
+            energies.push(energy);
             if energy <= best.0 {
                 best = (energy, x.clone(), param.clone(), maps.clone());
-                energies.push(energy);
             }
             if quiet >= 2 {
                 break;
@@ -304,5 +304,107 @@ impl Problem {
             })
             .sum();
         sum / c.nodes.len().max(1) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::norm;
+    use crate::instance::{Domain, DomainSide, Instance};
+    use crate::library::Library;
+    use crate::region::EdgeUse;
+    use crate::template::model::Template;
+    use proptest::prelude::*;
+
+    /// The template's own outline, moved by a map.
+    fn domain(template: &Template, map: impl Fn(P) -> P) -> Domain {
+        let sides = template
+            .sides
+            .iter()
+            .map(|s| DomainSide {
+                path: Path::new(s.nodes.iter().map(|&k| map(template.points[k])).collect()),
+                uses: vec![EdgeUse::Street; s.nodes.len() - 1],
+            })
+            .collect();
+        Domain { sides }
+    }
+
+    /// Every template of the library, not only those without children, fits its
+    /// own outline moved rigidly without any residual on its first level.
+    #[test]
+    fn own_outline_moved_rigidly_is_a_fixed_point() {
+        let library = Library::standard();
+        for template in library.templates() {
+            let (s, c) = 2.1f64.sin_cos();
+            let map = |q: P| p(c * q.x - s * q.y + 41.0, s * q.x + c * q.y - 7.0);
+            let mut instance = Instance::new(template, &domain(template, map));
+            let start = instance.problem.pos.clone();
+            let solution = instance.problem.solve(&WarpOptions::default(), 1.0);
+            let e = solution.energies.last().copied().unwrap_or(f64::INFINITY);
+            assert!(e < 1e-16, "{}: {e:e}", template.name());
+            for (k, q) in instance
+                .problem
+                .pos
+                .iter()
+                .enumerate()
+                .take(template.points.len())
+            {
+                if instance.problem.owned(k) {
+                    assert!(
+                        norm(map(template.points[k]) - *q) < 1e-7,
+                        "{} point {k}",
+                        template.name()
+                    );
+                    assert!(
+                        norm(start[k] - *q) < 1e-6,
+                        "{} moved at point {k}",
+                        template.name()
+                    );
+                }
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(if std::env::var_os("URBAN_LAYOUT_LONG").is_some() { 2000 } else { 48 }))]
+        /// E never rises: rows, whose alignments are sides alone, on bent quads.
+        #[test]
+        fn energy_never_rises(
+            x in prop::array::uniform4(-25.0..25.0f64),
+            y in prop::array::uniform4(-12.0..12.0f64),
+            bend in -15.0..15.0f64,
+            depth in 0usize..6,
+            which in 0usize..3,
+        ) {
+            let library = Library::standard();
+            let template = library.find(["double-row", "single-row", "row"][which]).unwrap();
+            let o = [p(0., 0.), p(150., 0.), p(150., 60.), p(0., 60.)];
+            let c: Vec<P> = (0..4).map(|i| o[i] + p(x[i], y[i])).collect();
+            let sides = (0..4)
+                .map(|i| {
+                    let (a, b) = (c[i], c[(i + 1) % 4]);
+                    let long = i % 2 == 0;
+                    let k = if long { 10 } else { 3 };
+                    let path = Path::new(
+                        (0..=k)
+                            .map(|j| {
+                                let t = f64::from(j) / f64::from(k);
+                                a + (b - a) * t + p(0.0, if long { 4.0 * bend * t * (1.0 - t) } else { 0.0 })
+                            })
+                            .collect(),
+                    );
+                    DomainSide { path, uses: vec![EdgeUse::Street; k as usize] }
+                })
+                .collect();
+            let mut instance = Instance::new(template, &Domain { sides });
+            let options = WarpOptions { anderson_depth: depth, tolerance: 0.0, ..WarpOptions::default() };
+            let solution = instance.problem.solve(&options, 1.0);
+            prop_assert!(solution.energies.len() > 2);
+            for e in solution.energies.windows(2) {
+                // 1e-12: the rounding of a sum of some hundred squares.
+                prop_assert!(e[1] <= e[0] * (1.0 + 1e-12), "{:?}", solution.energies);
+            }
+        }
     }
 }

@@ -68,8 +68,8 @@ pub struct Warped {
     pub template: String,
     /// All faces, streets included.
     pub faces: Vec<WarpedFace>,
-    /// Mean over the faces other than streets of the mean squared registration
-    /// distance (the paper's equation 1 divided by the number of vertices),
+    /// Mean over the faces other than streets, by area, of the mean squared
+    /// registration distance (the paper's equation 1 divided by the number of vertices),
     /// divided by the area of the ideal parcel: dimensionless, 0 for a perfect
     /// fit; 0.01 means vertices about a tenth of the root of a parcel's area
     /// (2.3 m for 30 x 18 m) from their ideal places.

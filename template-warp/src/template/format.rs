@@ -70,6 +70,8 @@ pub(crate) struct DivideSpec {
     pub(crate) length: Length,
     #[serde(default = "single")]
     pub(crate) min: usize,
+    #[serde(default)]
+    pub(crate) wide_ends: f64,
 }
 
 #[derive(Clone, Debug, serde::Deserialize)]

@@ -48,6 +48,9 @@ pub(crate) struct Divide {
     pub(crate) edges: Vec<[usize; 2]>,
     pub(crate) length: f64,
     pub(crate) min: usize,
+    /// How much of the triangle at a slanted end is added to the end part's
+    /// width: 0 keeps all parts equal, 1 adds half of the triangle's base.
+    pub(crate) wide_ends: f64,
 }
 
 /// Points on a circle; edges between successive ones are arcs of it.
@@ -309,10 +312,14 @@ impl Template {
                 .iter()
                 .map(|e| Ok([find(&e[0])?, find(&e[1])?]))
                 .collect::<Result<Vec<_>, WarpError>>()?;
+            if !(0.0..=4.0).contains(&d.wide_ends) {
+                return Err(bad(format!("`wide_ends` is {}; give 0 to 4", d.wide_ends)));
+            }
             divides.push(Divide {
                 edges,
                 length,
                 min: d.min.max(1),
+                wide_ends: d.wide_ends,
             });
         }
         let elastic = spec
