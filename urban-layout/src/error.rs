@@ -157,7 +157,7 @@ impl Error {
     /// The exit status of the command: 1 the input (or a file) is wrong, 2 usage,
     /// 3 no result meets the constraints, 4 cancelled.
     #[must_use]
-    pub fn exit_code(&self) -> i32 {
+    pub fn exit_code(&self) -> u8 {
         match *self.0 {
             ErrorKind::Site(_) | ErrorKind::Input(_) | ErrorKind::Io { .. } => 1,
             ErrorKind::Usage(_) => 2,
