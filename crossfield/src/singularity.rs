@@ -7,8 +7,9 @@
 use geo_types::Coord;
 
 use crate::cross::QUARTER;
+use crate::domain::Border;
 use crate::field::Field;
-use crate::plane::{coord, wedge, wrapped, V2};
+use crate::plane::{coord, fourth_power, wedge, wrapped, V2};
 
 /// A point without a cross.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,14 +30,14 @@ pub struct IndexCheck {
     pub interior: i32,
     /// Winding of D along all rings, the domain on their left.
     pub boundary_winding: i32,
-    /// Sum over the corners of their turn, rounded to quarter turns: convex
-    /// ones positive, concave ones negative.
+    /// Sum over the boundary's vertices of their turn, each rounded to quarter
+    /// turns: convex ones positive, concave ones negative. A turn of less
+    /// than 45 degrees counts 0, so the smooth turning of a curve does not.
     pub corners: i32,
     /// Euler characteristic of the mesh.
     pub euler: i32,
-    /// Whether the field follows the boundary everywhere: D has a positive
-    /// scalar product with the boundary's own representation vector on every
-    /// boundary edge.
+    /// Whether the field follows the boundary everywhere, see
+    /// [`Field::is_boundary_aligned`].
     pub aligned: bool,
 }
 
@@ -194,32 +195,69 @@ impl Field {
     /// ```
     #[must_use]
     pub fn index_check(&self) -> IndexCheck {
-        let corners = self.domain().corners();
+        let rings = &self.domain().inner.rings;
+        let turns = rings.iter().flat_map(|ring| &ring.turn);
         IndexCheck {
             interior: self.index_sum(),
             boundary_winding: self.boundary_winding(),
-            corners: corners
-                .iter()
-                .map(|c| (c.turn / QUARTER).round() as i32)
-                .sum(),
+            corners: turns.map(|turn| (turn / QUARTER).round() as i32).sum(),
             euler: self.domain().euler_characteristic(),
             aligned: self.is_boundary_aligned(),
         }
     }
 
-    /// Whether D has a positive scalar product with the representation vector
-    /// of every boundary edge, halfway along it.
+    /// Whether the field follows the boundary closely enough for
+    /// [`IndexCheck::boundary_law`]: relative to the boundary, D turns by less
+    /// than half a turn along each boundary edge of the mesh, and at each
+    /// boundary vertex the cross takes the shorter way from the one edge to
+    /// the other.
+    ///
+    /// True wherever D has a positive scalar product with the representation
+    /// vectors of the boundary edges; false for most fields that were not
+    /// designed to follow it.
     #[must_use]
     pub fn is_boundary_aligned(&self) -> bool {
         let inner = &*self.domain().inner;
-        inner.mesh.borders.iter().all(|border| {
+        let borders = &inner.mesh.borders;
+        // Phase of D at `v` relative to the edge that a border lies on.
+        let deviation = |border: usize, v: u32| {
+            let border = borders[border];
             let ring = &inner.rings[border.ring as usize];
-            let wanted = crate::plane::fourth_power(ring.direction(border.edge as usize));
-            let ends = [border.from, border.to].map(|v| self.vectors()[v as usize]);
-            (ends[0] + ends[1]).dot(&wanted) > 0.0
+            let along = fourth_power(ring.direction(border.edge as usize));
+            let d = self.vectors()[v as usize];
+            wedge(along, d).atan2(along.dot(&d))
+        };
+        let mut by_start: Vec<(u32, usize)> =
+            (0..borders.len()).map(|k| (borders[k].from, k)).collect();
+        by_start.sort_unstable();
+        let least = HALF_TURN - 1e-9;
+        (0..borders.len()).all(|k| {
+            let Border {
+                from,
+                to,
+                ring,
+                edge,
+            } = borders[k];
+            let arriving = deviation(k, to);
+            let first = by_start.partition_point(|&(start, _)| start < to);
+            let after = inner.rings[ring as usize].next(edge as usize);
+            (arriving - deviation(k, from)).abs() < least
+                && by_start[first..]
+                    .iter()
+                    .take_while(|&&(start, _)| start == to)
+                    .map(|&(_, next)| next)
+                    // Where rings touch, more than one border starts.
+                    .filter(|&next| {
+                        let (r, e) = (borders[next].ring, borders[next].edge as usize);
+                        r == ring && (e == edge as usize || e == after)
+                    })
+                    .all(|next| (arriving - deviation(next, to)).abs() < least)
         })
     }
 }
+
+/// Half a turn of D.
+const HALF_TURN: f64 = 2.0 * QUARTER;
 
 /// The angle of D; 0 for a zero vector.
 fn phase(d: V2) -> f64 {

@@ -100,7 +100,7 @@ pub(crate) fn triangulate(
     let expected: f64 = rings.iter().map(Ring::area).sum();
     let got = mesh.area();
     if (got - expected).abs() > 1e-7 * expected.abs() + 1e-12 * frame.size * frame.size {
-        return Err(misplaced(rings, expected, got));
+        return Err(misplaced(rings, frame, expected, got));
     }
     Ok(mesh)
 }
@@ -125,7 +125,9 @@ fn refinement(unit: f64, min_angle_deg: f64, budget: usize) -> RefinementParamet
         .with_angle_limit(AngleLimit::from_deg(min_angle_deg))
         // An equilateral triangle has 0.43 unit^2.
         .with_max_allowed_area(0.75 * unit * unit)
-        .with_min_required_area(0.002 * unit * unit)
+        // Grading down to a small feature costs some ten vertices a halving;
+        // this ends it where slivers no longer matter to any field.
+        .with_min_required_area(1e-8 * unit * unit)
         .with_max_additional_vertices(budget)
 }
 
@@ -367,9 +369,7 @@ fn crossing(
     let (a, b) = ends(refused);
     let across = |s: &&Segment| {
         let (c, d) = ends(s);
-        let apart = |u: f64, v: f64| (u > 0.0 && v < 0.0) || (u < 0.0 && v > 0.0);
-        apart(orient_exact(a, b, c), orient_exact(a, b, d))
-            && apart(orient_exact(c, d, a), orient_exact(c, d, b))
+        cross_properly(a, b, c, d)
     };
     let other = segments.iter().find(across).unwrap_or(refused);
     intersecting(rings, frame, refused, other, (a + b) / 2.0)
@@ -393,8 +393,12 @@ fn intersecting(
     }
 }
 
-/// The error for rings whose triangles do not add up to their area.
-fn misplaced(rings: &[Ring], expected: f64, got: f64) -> FieldError {
+/// The error for rings whose triangles do not add up to their area: edges
+/// that cross just where both were subdivided, or a hole in the wrong place.
+fn misplaced(rings: &[Ring], frame: Frame, expected: f64, got: f64) -> FieldError {
+    if let Some((one, other, at)) = first_crossing(rings) {
+        return intersecting(rings, frame, &one, &other, at);
+    }
     for (index, ring) in rings.iter().enumerate().skip(1) {
         // A vertex may touch another ring; the majority decides.
         let outside = |p: &&V2| {
@@ -411,4 +415,43 @@ fn misplaced(rings: &[Ring], expected: f64, got: f64) -> FieldError {
     FieldError::MeshFailed {
         what: format!("its triangles cover {got}, the polygon has {expected} square units"),
     }
+}
+
+/// Two ring edges that cross properly, by a sweep over their x ranges.
+fn first_crossing(rings: &[Ring]) -> Option<(Segment, Segment, V2)> {
+    let mut edges: Vec<(f64, f64, Segment)> = Vec::new();
+    for (ring, points) in rings.iter().enumerate() {
+        for k in 0..points.len() {
+            let (a, b) = points.edge(k);
+            let segment = Segment {
+                from: 0,
+                to: 0,
+                ring: ring as u32,
+                edge: k as u32,
+            };
+            edges.push((a.x.min(b.x), a.x.max(b.x), segment));
+        }
+    }
+    edges.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let ends = |s: &Segment| rings[s.ring as usize].edge(s.edge as usize);
+    let mut open: Vec<(f64, Segment)> = Vec::new();
+    for &(left, right, segment) in &edges {
+        open.retain(|&(end, _)| end >= left);
+        let (a, b) = ends(&segment);
+        for (_, other) in &open {
+            let (c, d) = ends(other);
+            if cross_properly(a, b, c, d) {
+                return Some((*other, segment, (a + b) / 2.0));
+            }
+        }
+        open.push((right, segment));
+    }
+    None
+}
+
+/// Whether two segments cross in a point inside both.
+fn cross_properly(a: V2, b: V2, c: V2, d: V2) -> bool {
+    let apart = |u: f64, v: f64| (u > 0.0 && v < 0.0) || (u < 0.0 && v > 0.0);
+    apart(orient_exact(a, b, c), orient_exact(a, b, d))
+        && apart(orient_exact(c, d, a), orient_exact(c, d, b))
 }

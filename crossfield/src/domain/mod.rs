@@ -14,13 +14,15 @@ use nalgebra::Rotation2;
 use crate::footpoint::EdgeTree;
 use crate::plane::{coord, vector, V2};
 use crate::FieldError;
+pub(crate) use mesh::Border;
 pub(crate) use ring::Ring;
 
 /// How a domain is triangulated.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DomainOptions {
-    /// Wanted length of triangle edges, metres; 0 for `sqrt(area) / 40`.
+    /// Wanted length of triangle edges, metres; 0 for `sqrt(area) / 40` (on
+    /// needle-thin domains more, an eight-thousandth of the perimeter).
     ///
     /// Boundary edges are subdivided to at most this length.
     ///
@@ -219,21 +221,14 @@ impl Domain {
             // More hole than polygon: some hole lies outside.
             return Err(FieldError::HoleOutside { ring: 1 });
         }
+        let perimeter: f64 = rings.iter().map(Ring::perimeter).sum();
         let step = if options.edge_length > 0.0 {
             options.edge_length
         } else {
-            area.sqrt() / 40.0
+            (area.sqrt() / 40.0).max(perimeter / MOST_AUTOMATIC)
         };
         // Before any point is made: an edge length in the wrong unit must not
         // fill the memory.
-        let perimeter: f64 = rings
-            .iter()
-            .map(|r| {
-                (0..r.len())
-                    .map(|k| (r.edge(k).1 - r.edge(k).0).norm())
-                    .sum::<f64>()
-            })
-            .sum();
         let estimate = area / (0.87 * step * step) + perimeter / step;
         if estimate > 1.2 * allowed as f64 {
             return Err(FieldError::TooManyVertices {
@@ -438,6 +433,10 @@ impl Inner {
         self.named_exit(point, ring, edge)
     }
 }
+
+/// With an automatic edge length, about as many boundary vertices at most. A
+/// compact domain has some 200; only needles come near it.
+const MOST_AUTOMATIC: f64 = 8000.0;
 
 /// Neighbour entries keep one bit for borders.
 const MOST_VERTICES: usize = 1 << 28;

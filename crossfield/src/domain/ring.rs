@@ -64,6 +64,16 @@ impl Ring {
         signed_area(&self.points)
     }
 
+    /// Length of all edges.
+    pub(crate) fn perimeter(&self) -> f64 {
+        (0..self.len())
+            .map(|k| {
+                let (a, b) = self.edge(k);
+                (b - a).norm()
+            })
+            .sum()
+    }
+
     /// Recomputes turns and corners from the points.
     fn find_corners(&mut self, corner: f64) {
         self.turn = (0..self.len())
