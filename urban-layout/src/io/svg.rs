@@ -32,7 +32,7 @@ pub struct SvgOptions {
     pub title: Option<String>,
     /// Line under the title. Default: "Street and parcel plan".
     pub subtitle: String,
-    /// Whose data the plan shows, to be printed on it. Default: none.
+    /// Whose data the plan shows, to be printed on it; what the site says by default.
     pub attribution: Option<String>,
     /// Whether existing streets outside are drawn. Default true.
     pub context: bool,
@@ -61,7 +61,7 @@ const MARGIN: f64 = 1000.0;
 /// The column of texts on a lying sheet, and each of the columns on an upright one.
 const COLUMN: f64 = 7200.0;
 /// The strip of texts on an upright sheet.
-const STRIP: f64 = 8200.0;
+const STRIP: f64 = 8700.0;
 
 /// The sheet and where the map is on it.
 struct Sheet {
@@ -91,6 +91,10 @@ pub fn svg(layout: &Layout, site: &Site, options: &SvgOptions) -> String {
         .or(site.name.as_deref())
         .unwrap_or("Layout");
     let title = sheet::title_of(name);
+    let attribution = options
+        .attribution
+        .as_deref()
+        .or(site.attribution.as_deref());
     let mut canvas = Canvas::default();
     let (w, h) = (sheet.width, sheet.height);
     canvas.raw(&format!(
@@ -117,11 +121,11 @@ pub fn svg(layout: &Layout, site: &Site, options: &SvgOptions) -> String {
         let room = w - MARGIN - x;
         let mut y = sheet::title(&mut canvas, &title, &options.subtitle, x, fy, room);
         y = sheet::figures(&mut canvas, &figures, x, y + 300.0, room);
-        y = sheet::land_use(&mut canvas, layout, &figures, x, y + 150.0, room);
-        y = sheet::histogram(&mut canvas, layout, x, y + 100.0, room);
-        sheet::legend(&mut canvas, layout, x, y + 100.0);
+        y = sheet::land_use(&mut canvas, layout, &figures, x, y + 250.0, room);
+        y = sheet::histogram(&mut canvas, layout, x, y + 250.0, room);
+        sheet::legend(&mut canvas, layout, x, y + 200.0, room);
         sheet::scale_bar(&mut canvas, sheet.to.scale, x, fy + fh - 2100.0, room);
-        sheet::imprint(&mut canvas, options, x, fy + fh, room);
+        sheet::imprint(&mut canvas, attribution, x, fy + fh, room);
     } else {
         let (top, gap) = (fy + fh + 500.0, 900.0);
         let room = (w - 2.0 * MARGIN - 2.0 * gap) / 3.0;
@@ -144,8 +148,8 @@ pub fn svg(layout: &Layout, site: &Site, options: &SvgOptions) -> String {
             y.min(h - MARGIN - 1500.0),
             room,
         );
-        sheet::legend(&mut canvas, layout, column(2.0), top);
-        sheet::imprint(&mut canvas, options, column(1.0), h - MARGIN, room);
+        sheet::legend(&mut canvas, layout, column(2.0), top, room);
+        sheet::imprint(&mut canvas, attribution, column(1.0), h - MARGIN, room);
     }
     canvas.raw("</svg>\n");
     canvas.0

@@ -137,6 +137,14 @@ fn tiles(canvas: &mut Canvas, layout: &Layout, to: &Transform) {
     canvas.path(&landlocked.0, "fill=\"url(#barred)\"");
 }
 
+/// Paving of a given road.
+const fn road_fill(class: RoadClass) -> &'static str {
+    match class {
+        RoadClass::Major => "#cfc6b2",
+        _ => "#e0d9c9",
+    }
+}
+
 /// Given roads, darker than new streets.
 fn given_roads(canvas: &mut Canvas, layout: &Layout, to: &Transform) {
     for street in layout.streets.iter().filter(|s| s.given) {
@@ -147,11 +155,7 @@ fn given_roads(canvas: &mut Canvas, layout: &Layout, to: &Transform) {
             &data.0,
             &format!(
                 "fill=\"none\" stroke=\"{}\" stroke-width=\"{wide:.0}\" stroke-linejoin=\"round\"",
-                if street.class == RoadClass::Major {
-                    "#cfc6b2"
-                } else {
-                    "#e0d9c9"
-                }
+                road_fill(street.class)
             ),
         );
     }
@@ -246,21 +250,17 @@ fn names(canvas: &mut Canvas, layout: &Layout, site: &Site, to: &Transform) {
     for (name, road) in named {
         // The letters fill half of the street's width, but stay legible.
         let cap = (0.42 * road.width * to.scale).clamp(120.0, 300.0);
-        if let Some(data) = along(name, cap, &road.line, to) {
-            let line = "class=\"t\" stroke-linejoin=\"round\"";
+        if let Some((data, strip)) = along(name, cap, &road.line, to) {
+            let paving = road_fill(road.class);
+            let wide = cap * 1.5;
             canvas.path(
-                &data,
-                &format!(
-                    "{line} stroke=\"#f6f2e8\" stroke-width=\"{:.0}\"",
-                    cap * 0.55
-                ),
+                &strip,
+                &format!("class=\"t\" stroke=\"{paving}\" stroke-width=\"{wide:.0}\""),
             );
+            let pen = cap * 0.13;
             canvas.path(
                 &data,
-                &format!(
-                    "{line} stroke=\"#4d4637\" stroke-width=\"{:.0}\"",
-                    cap * 0.13
-                ),
+                &format!("class=\"t\" stroke=\"#4d4637\" stroke-width=\"{pen:.0}\""),
             );
         }
     }
@@ -301,9 +301,9 @@ fn centroid(ring: &[Coord<f64>]) -> Coord<f64> {
     }
 }
 
-/// Path data of a text along the straightest stretch of a line, upright, or
-/// `None` where the line is too short or too bent.
-fn along(text: &str, cap: f64, line: &LineString<f64>, to: &Transform) -> Option<String> {
+/// Path data of a text along the straightest stretch of a line, upright, and of
+/// that stretch; `None` where the line is too short or too bent.
+fn along(text: &str, cap: f64, line: &LineString<f64>, to: &Transform) -> Option<(String, String)> {
     let mut points: Vec<Coord<f64>> = line.0.iter().map(|c| to.place(*c)).collect();
     let (long, wide) = (length(&points), font::width(text, cap));
     if wide * 1.2 > long {
@@ -330,9 +330,9 @@ fn along(text: &str, cap: f64, line: &LineString<f64>, to: &Transform) -> Option
         points.reverse();
         start = long - start - wide;
     }
-    Some(font::path_along(text, cap, |s| {
+    let at = |s: f64| on(&points, s).unwrap_or(p);
+    let data = font::path_along(text, cap, |s| {
         let half = 0.3 * cap;
-        let at = |s: f64| on(&points, s).unwrap_or(p);
         let (a, b, c) = (at(start + s - half), at(start + s + half), at(start + s));
         let angle = (b.y - a.y).atan2(b.x - a.x);
         // The baseline lies half a letter below the line.
@@ -341,7 +341,13 @@ fn along(text: &str, cap: f64, line: &LineString<f64>, to: &Transform) -> Option
             y: c.y + 0.5 * cap * angle.cos(),
             angle,
         }
-    }))
+    });
+    let mut strip = PathData::default();
+    strip.line(
+        (0..=12).map(|k| at(start + wide * f64::from(k) / 12.0)),
+        false,
+    );
+    Some((data, strip.0))
 }
 
 /// The point at an arc length.

@@ -4,7 +4,6 @@ use super::canvas::{Anchor, Canvas, Lettering, PathData};
 use super::font;
 use super::map::shade;
 use super::palette::{land, LAND, SHADES, STREETS};
-use super::SvgOptions;
 use crate::layout::plane::polygon_area;
 use crate::layout::{Layout, TileKind};
 use crate::metrics::Metrics;
@@ -23,13 +22,13 @@ const fn style(cap: f64, weight: f64, colour: &'static str, anchor: Anchor) -> L
     }
 }
 
-const HEAD: Lettering = style(195.0, 0.17, INK, Anchor::Left);
-const BODY: Lettering = style(180.0, 0.11, INK, Anchor::Left);
-const FIGURE: Lettering = style(180.0, 0.13, INK, Anchor::Right);
-const NOTE: Lettering = style(140.0, 0.11, SOFT, Anchor::Left);
+const HEAD: Lettering = style(225.0, 0.17, INK, Anchor::Left);
+const BODY: Lettering = style(205.0, 0.11, INK, Anchor::Left);
+const FIGURE: Lettering = style(205.0, 0.13, INK, Anchor::Right);
+const NOTE: Lettering = style(155.0, 0.11, SOFT, Anchor::Left);
 
 /// Distance between lines of text, sheet units.
-const LEADING: f64 = 360.0;
+const LEADING: f64 = 410.0;
 
 /// A whole number in groups of three digits.
 pub(super) fn grouped(value: f64) -> String {
@@ -145,7 +144,7 @@ pub(super) fn land_use(
     let named: f64 = parts.iter().map(|part| part.2).sum();
     let rest = [("Other", land(TileKind::Other).fill, 100.0 - named)];
     let mut left = x;
-    let mut at = top + 420.0 + LEADING * 0.9;
+    let mut at = top + 420.0 + LEADING * 0.92;
     for (word, fill, percent) in parts.into_iter().chain(rest).filter(|part| part.2 > 0.05) {
         let wide = room * percent / 100.0;
         canvas.rect(
@@ -163,9 +162,9 @@ pub(super) fn land_use(
             190.0,
             &format!("fill=\"{fill}\" stroke=\"#8f856f\" stroke-width=\"10\""),
         );
-        canvas.text(word, x + 380.0, at, BODY);
+        canvas.text(word, x + 460.0, at, BODY);
         canvas.text(&format!("{percent:.1} %"), x + room, at, FIGURE);
-        at += LEADING * 0.9;
+        at += LEADING * 0.92;
     }
     at + 100.0
 }
@@ -221,10 +220,10 @@ pub(super) fn histogram(canvas: &mut Canvas, layout: &Layout, x: f64, y: f64, ro
 }
 
 /// What colours and lines mean, only what the plan has; the y below it.
-pub(super) fn legend(canvas: &mut Canvas, layout: &Layout, x: f64, y: f64) -> f64 {
+pub(super) fn legend(canvas: &mut Canvas, layout: &Layout, x: f64, y: f64, room: f64) -> f64 {
     let mut at = y + HEAD.cap;
     canvas.text("Parcels: corners, box / area", x, at, HEAD);
-    let step = LEADING * 0.86;
+    let step = LEADING * 0.92;
     let shades: Vec<usize> = layout.parcels().map(shade).collect();
     for (number, style) in SHADES.iter().enumerate() {
         at += step;
@@ -233,7 +232,7 @@ pub(super) fn legend(canvas: &mut Canvas, layout: &Layout, x: f64, y: f64) -> f6
         let count = shades.iter().filter(|s| **s == number).count();
         canvas.text(
             &grouped(count as f64),
-            x + 6300.0,
+            x + room,
             at,
             Lettering {
                 colour: SOFT,
@@ -342,13 +341,13 @@ pub(super) fn scale_bar(
     y + 800.0 + LEADING
 }
 
-/// The greatest of 1, 2, 2.5, 5 times a power of ten that is not above `value`.
+/// The greatest of a few round numbers times a power of ten that is not above `value`.
 pub(super) fn round_below(value: f64) -> f64 {
     if !(value > 0.0 && value.is_finite()) {
         return 1.0;
     }
     let power = 10_f64.powf(value.log10().floor());
-    [10.0, 5.0, 2.0, 1.0]
+    [10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.5, 1.0]
         .into_iter()
         .map(|k| k * power)
         .find(|v| *v <= value * (1.0 + 1e-9))
@@ -369,11 +368,9 @@ pub(super) fn north(canvas: &mut Canvas, x: f64, y: f64) {
 }
 
 /// The last line: what made the plan, and whose data it shows.
-pub(super) fn imprint(canvas: &mut Canvas, options: &SvgOptions, x: f64, y: f64, room: f64) {
+pub(super) fn imprint(canvas: &mut Canvas, attribution: Option<&str>, x: f64, y: f64, room: f64) {
     let mut at = y;
-    let lines = options
-        .attribution
-        .as_deref()
+    let lines = attribution
         .map(|text| wrapped(text, NOTE.cap, room))
         .unwrap_or_default();
     for line in lines.iter().rev() {
@@ -412,7 +409,8 @@ mod tests {
 
     #[test]
     fn bars_have_round_lengths() {
-        assert_eq!(round_below(437.0), 200.0);
+        assert_eq!(round_below(437.0), 400.0);
+        assert_eq!(round_below(187.0), 150.0);
         assert_eq!(round_below(1000.0), 1000.0);
         assert_eq!(round_below(0.07), 0.05);
         assert_eq!(round_below(f64::NAN), 1.0);
