@@ -7,7 +7,7 @@ use super::trace::{level_lines, simplify, Base, Level, Path};
 use super::ParcelOptions;
 
 /// Pairs of shapes that candidate cuts leave: left and right of the cut.
-pub(super) fn cuts(shape: &Shape, options: &ParcelOptions) -> Vec<(Shape, Shape)> {
+pub(super) fn cuts(shape: &Shape, options: &ParcelOptions, level: usize) -> Vec<(Shape, Shape)> {
     let mut paths = Vec::new();
     let mut chains = shape.chains(options);
     chains.retain(|c| c.length >= 0.5 * options.good_frontage);
@@ -16,7 +16,9 @@ pub(super) fn cuts(shape: &Shape, options: &ParcelOptions) -> Vec<(Shape, Shape)
     spines(shape, &chains, options, &mut paths);
     offsets(shape, &chains, options, &mut paths);
     reflex(shape, options, &mut paths);
-    across(shape, &chains, options, &mut paths);
+    if level < 2 {
+        across(shape, &chains, options, &mut paths);
+    }
     paths
         .iter()
         .filter_map(|p| shape.cut(p.from, &p.inner, p.to))

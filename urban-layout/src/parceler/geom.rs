@@ -111,11 +111,26 @@ pub(super) fn ray_hit(o: P, d: P, a: P, b: P) -> Option<(f64, f64)> {
 
 /// Whether the segments `ab` and `cd` have a point in common.
 pub(super) fn meet(a: P, b: P, c: P, d: P) -> bool {
+    // Most pairs are far apart: their boxes say so.
+    if a.x.max(b.x) < c.x.min(d.x)
+        || c.x.max(d.x) < a.x.min(b.x)
+        || a.y.max(b.y) < c.y.min(d.y)
+        || c.y.max(d.y) < a.y.min(b.y)
+    {
+        return false;
+    }
     let r = |p: P, q: P, s: P| {
         let f = |v: P| robust::Coord { x: v.x, y: v.y };
         robust::orient2d(f(p), f(q), f(s))
     };
-    let (o1, o2, o3, o4) = (r(a, b, c), r(a, b, d), r(c, d, a), r(c, d, b));
+    let (o1, o2) = (r(a, b, c), r(a, b, d));
+    if o1 * o2 > 0.0 {
+        return false;
+    }
+    let (o3, o4) = (r(c, d, a), r(c, d, b));
+    if o3 * o4 > 0.0 {
+        return false;
+    }
     if o1 * o2 < 0.0 && o3 * o4 < 0.0 {
         return true;
     }

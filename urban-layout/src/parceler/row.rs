@@ -113,8 +113,8 @@ impl Row {
     fn mean_depth(&self) -> f64 {
         let l = self.length();
         let (mut sum, mut count) = (0.0, 0.0);
-        for k in 0..9 {
-            let s = l * (f64::from(k) + 0.5) / 9.0;
+        for k in 0..5 {
+            let s = l * (f64::from(k) + 0.5) / 5.0;
             if let Some(r) = self.rung(s, self.normal(s)) {
                 sum += dist(r.pf, r.pb);
                 count += 1.0;
@@ -328,13 +328,10 @@ impl Row {
         let n0 = count(l, w);
         let mut best: Option<(f64, Vec<Rung>)> = None;
         let leaning = self.slant[0].abs() + self.slant[1].abs() > 0.05;
-        let other = if l / w > n0 as f64 { n0 + 1 } else { n0.saturating_sub(1) };
         let mut tries = vec![(n0, false, 0.0)];
         if leaning {
             tries.extend([(n0, true, f64::INFINITY), (n0, true, 2.5)]);
         }
-        tries.push((other, leaning, if leaning { f64::INFINITY } else { 0.0 }));
-        tries.retain(|t| t.0 > 0 && l / (t.0 as f64) >= options.min_frontage);
         for (n, middle, fan) in tries {
             let Some(rungs) = self.spread(n, middle, fan, w) else {
                 continue;

@@ -35,8 +35,10 @@ pub(super) struct Plan {
 
 /// How many cuts are taken further at each level.
 const BEAM: [usize; 4] = [4, 2, 1, 1];
+/// A cut must gain this much: rows in one piece refine better than halves.
+const GAIN: f64 = 0.1;
 /// A shape is clean, and not cut further, below this cost per parcel.
-const CLEAN: f64 = 0.08;
+const CLEAN: f64 = 0.15;
 
 /// Divides a simple ring; the parts tile it.
 pub(super) fn plan(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) -> Vec<Shape> {
@@ -141,7 +143,7 @@ fn deepen(
         return best;
     }
     let mut found: Vec<(f64, Shape, Shape)> = Vec::new();
-    let candidates = cuts(shape, options);
+    let candidates = cuts(shape, options, level);
     // Tracing and shooting cost by the vertex, not by the parcel.
     bench.work += candidates.len() * shape.len() / 10;
     for (l, r) in candidates {
@@ -161,7 +163,7 @@ fn deepen(
         }
         let pl = deepen(&l, options, bench, level + 1, budget);
         let pr = deepen(&r, options, bench, level + 1, budget);
-        if pl.cost + pr.cost < best.cost {
+        if pl.cost + pr.cost < best.cost - GAIN {
             let mut leaves = pl.leaves;
             leaves.extend(pr.leaves);
             best = Plan {
