@@ -218,7 +218,7 @@ fn uneven_spacing_stays_with_weights_and_shifts_without() {
 #[test]
 fn circular_strips_stay_without_fairness() {
     let map = |x: f64, y: f64| {
-        let (r, a) = (100.0 + 40.0 * y, 1.2 * x / 3.0);
+        let (r, a) = (220.0 - 40.0 * y, 1.2 * x / 3.0);
         p(r * a.sin(), -r * a.cos())
     };
     let mut net = network(3, 3, 8, &map);

@@ -1,11 +1,16 @@
 //! Linework in, points and edges that meet only at points out.
 //!
-//! Rounds of iterated snapping: pieces that come within the snap distance of
-//! a vertex are bent through it, pieces that cross are cut at a vertex there,
-//! until nothing changes. Vertices stay farther apart than the snap distance,
-//! so the rounds end: each one adds vertices to a bounded area or removes
-//! contacts. After it, no vertex is within the snap distance of a piece that
-//! it does not end, and no two pieces cross.
+//! Rounds of iterated snapping: pieces that come near a vertex are bent
+//! through it, pieces that cross are cut at a vertex there, until nothing
+//! changes.
+//!
+//! Near means closer than [`NEAR`] times the snap distance. As input vertices
+//! are a whole snap distance apart, a bent piece's parts are then shorter
+//! than the piece (near is under 1 / sqrt 2 of the separation), and bending
+//! must end. Crossings may come closer to each other than input vertices do;
+//! there, two neighbouring vertices could take turns in bending one piece for
+//! ever. So a piece that comes back after it was bent only bends for half the
+//! distance, up to [`HALVINGS`] times.
 
 use super::index::SegmentIndex;
 use super::predicates::{crosses, dist, dist_to_segment, dot, finite, lerp, orient, sub, P};
@@ -49,6 +54,13 @@ pub(super) struct Arrangement {
 /// Pieces and vertices are numbered in 32 bits, two half-edges a piece; the
 /// limit also keeps memory within some gigabytes.
 const LIMIT: usize = 20_000_000;
+/// Fraction of the snap distance below which a piece bends to a vertex.
+const NEAR: f64 = 0.7;
+/// How often that distance may be halved for a piece that keeps coming back.
+const HALVINGS: u8 = 3;
+/// The least snap distance, in tolerances: after all halvings, the distance
+/// is still over the tolerance.
+const LEAST: f64 = 16.0;
 /// Settling takes two to five rounds on real linework.
 const ROUNDS: usize = 100;
 
@@ -67,15 +79,16 @@ impl Vertices {
         (c(p.x - self.origin.x), c(p.y - self.origin.y))
     }
 
-    /// The vertex nearest to `p` within the snap distance, or a new one.
-    fn at(&mut self, p: P) -> u32 {
+    /// The vertex nearest to `p` within `reach` (at most the snap distance),
+    /// or a new one.
+    fn at(&mut self, p: P, reach: f64) -> u32 {
         let (cx, cy) = self.cell(p);
         let mut best: Option<(f64, u32)> = None;
         for x in cx - 1..=cx + 1 {
             for y in cy - 1..=cy + 1 {
                 for &i in self.cells.get(&(x, y)).into_iter().flatten() {
                     let d = dist(self.points[i as usize], p);
-                    if d <= self.snap && best.is_none_or(|b| (d, i) < b) {
+                    if d <= reach && best.is_none_or(|b| (d, i) < b) {
                         best = Some((d, i));
                     }
                 }
@@ -99,6 +112,10 @@ struct Pieces<'a> {
     live: Vec<bool>,
     dirty: Vec<bool>,
     by_ends: HashMap<(u32, u32), u32>,
+    /// How often a piece between two vertices was bent, by its ends.
+    bent: HashMap<(u32, u32), u8>,
+    /// Below which distance each piece bends, in snap distances.
+    near: Vec<f64>,
     /// Rank of each wire: lower wins.
     rank: &'a [u32],
 }
@@ -115,6 +132,9 @@ impl Pieces<'_> {
             self.all.push(piece);
             self.live.push(true);
             self.dirty.push(true);
+            let bent = self.bent.get(&ends).copied().unwrap_or(0);
+            self.near
+                .push(NEAR * 0.5_f64.powi(i32::from(bent.min(HALVINGS))));
         } else {
             let old = &mut self.all[at as usize];
             if self.rank[piece.wire as usize] < self.rank[old.wire as usize] {
@@ -126,8 +146,10 @@ impl Pieces<'_> {
     fn remove(&mut self, i: u32) -> Piece {
         let piece = self.all[i as usize];
         self.live[i as usize] = false;
-        self.by_ends
-            .remove(&(piece.a.min(piece.b), piece.a.max(piece.b)));
+        let ends = (piece.a.min(piece.b), piece.a.max(piece.b));
+        self.by_ends.remove(&ends);
+        let bent = self.bent.entry(ends).or_insert(0);
+        *bent = bent.saturating_add(1);
         piece
     }
 }
@@ -172,7 +194,7 @@ pub(super) fn arrange<E>(wires: &[Wire<E>], snap: f64) -> Result<Arrangement, Me
     }
     let largest = lo.x.abs().max(lo.y.abs()).max(hi.x.abs()).max(hi.y.abs());
     let tolerance = (1e-9 * dist(lo, hi)).max(16.0 * f64::EPSILON * largest);
-    let snap = snap.max(tolerance);
+    let snap = snap.max(LEAST * tolerance);
     if !(snap > 0.0) {
         return Err(MeshError::Empty { snap });
     }
@@ -190,13 +212,20 @@ pub(super) fn arrange<E>(wires: &[Wire<E>], snap: f64) -> Result<Arrangement, Me
     let mut ids: Vec<Vec<u32>> = vec![Vec::new(); wires.len()];
     for (r, &w) in order.iter().enumerate() {
         rank[w] = r as u32;
-        ids[w] = wires[w].line.0.iter().map(|&p| vertices.at(p)).collect();
+        ids[w] = wires[w]
+            .line
+            .0
+            .iter()
+            .map(|&p| vertices.at(p, snap))
+            .collect();
     }
     let mut pieces = Pieces {
         all: Vec::new(),
         live: Vec::new(),
         dirty: Vec::new(),
         by_ends: HashMap::new(),
+        bent: HashMap::new(),
+        near: Vec::new(),
         rank: &rank,
     };
     for (w, ids) in ids.iter().enumerate() {
@@ -278,12 +307,16 @@ fn contacts(vertices: &mut Vertices, pieces: &Pieces<'_>) -> Result<Option<Cuts>
             let (c, d) = ends(vertices, t);
             let before = cuts.len();
             for (v, p) in [(other.a, c), (other.b, d)] {
-                if v != piece.a && v != piece.b && dist_to_segment(p, a, b) <= snap {
+                if v != piece.a && v != piece.b && dist_to_segment(p, a, b) <= snap * pieces.near[s]
+                {
                     cuts.push((s as u32, v));
                 }
             }
             for (v, p) in [(piece.a, a), (piece.b, b)] {
-                if v != other.a && v != other.b && dist_to_segment(p, c, d) <= snap {
+                if v != other.a
+                    && v != other.b
+                    && dist_to_segment(p, c, d) <= snap * pieces.near[t as usize]
+                {
                     cuts.push((t, v));
                 }
             }
@@ -309,7 +342,7 @@ fn contacts(vertices: &mut Vertices, pieces: &Pieces<'_>) -> Result<Option<Cuts>
         // Orientations are accurate relative to themselves, so the point
         // lies on ab to the last place, however flat the crossing.
         let (oa, ob) = (orient(c, d, a), orient(c, d, b));
-        let v = vertices.at(lerp(a, b, oa / (oa - ob)));
+        let v = vertices.at(lerp(a, b, oa / (oa - ob)), NEAR * snap);
         for i in [s, t] {
             let piece = pieces.all[i as usize];
             if v != piece.a && v != piece.b {
@@ -379,14 +412,16 @@ impl<E: Clone> PlanarMesh<E> {
     /// vertices of both; lines on top of each other become one edge, with the
     /// attributes of the wire of higher [priority](Wire::priority); points
     /// closer than `snap` become one vertex, and a line that passes a vertex
-    /// closer than `snap` is bent through it. Each connected part of the
+    /// closer than 0.7 `snap` is bent through it (less where crossings crowd
+    /// within a snap distance, but never under
+    /// [`tolerance`](Self::tolerance)). Each connected part of the
     /// linework that lies inside a face is a hole of that face. Lines that
     /// end inside a face are kept, with the face on both sides.
     ///
     /// # Units
     ///
     /// `snap` in the units of the coordinates (metres), used no smaller than
-    /// [`tolerance`](Self::tolerance): 0 asks for as little snapping as
+    /// 16 times [`tolerance`](Self::tolerance): 0 asks for as little snapping as
     /// double precision allows. A vertex moves by at most `snap` per round of
     /// snapping, in practice by at most `snap`.
     ///

@@ -194,7 +194,7 @@ impl<E: Clone> PlanarMesh<E> {
         self.tolerance
     }
 
-    /// The snap distance that the mesh was built with, no less than
+    /// The snap distance that the mesh was built with, no less than 16 times
     /// [`tolerance`](Self::tolerance).
     pub fn snap(&self) -> f64 {
         self.snap

@@ -207,8 +207,11 @@ impl<E: Clone> PlanarMesh<E> {
             End::Vertex(v) if !self.has_vertex(v) => return Err(MeshError::NoVertex(v)),
             End::Vertex(v) => Place::At(v),
             End::Edge(h, at) => {
+                if !self.has_half_edge(h) {
+                    return Err(MeshError::NoHalfEdge(h));
+                }
                 let side = if self.face(h) == f { h } else { h.twin() };
-                if self.has_half_edge(h) && self.face(side) != f {
+                if self.face(side) != f {
                     return Err(off(at));
                 }
                 self.locate_on_edge(side, at, "split_face")?
