@@ -185,6 +185,23 @@ impl Path {
         best.1
     }
 
+    /// Arc length of a point near `hint` that is nearest to `q`: only the stretch
+    /// within three times the distance from the hint is searched, so that a side
+    /// that bends back on itself cannot draw a point across, and a long side
+    /// costs no more than a short one.
+    pub(crate) fn nearest_from(&self, q: P, hint: f64) -> f64 {
+        let reach = 3.0 * dist(q, self.at(hint));
+        let (first, last) = (self.segment(hint - reach), self.segment(hint + reach));
+        let mut best = (f64::INFINITY, hint);
+        for i in first..=last {
+            let (t, d2) = project(q, self.points[i], self.points[i + 1]);
+            if d2 < best.0 {
+                best = (d2, self.along[i] + t * (self.along[i + 1] - self.along[i]));
+            }
+        }
+        best.1
+    }
+
     /// `s`, or the arc length of a vertex nearer than `reach` to it.
     pub(crate) fn snap(&self, s: f64, reach: f64) -> f64 {
         let i = self.segment(s);

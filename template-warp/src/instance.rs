@@ -1,11 +1,11 @@
 //! A template set onto a particular region: parts counted, nodes numbered,
 //! faces cut into the cells that are registered.
 
-use crate::geometry::{cross, dist, dot, left, norm, p, Path, P};
+use crate::geometry::{cross, dist, dot, left, norm, p, signed_area, Path, P};
 use crate::initial::{divide_of, mean_value_weights, side_arc_lengths};
 use crate::region::EdgeUse;
 use crate::solve::{Align, Anchor, Cell, Problem};
-use crate::template::model::Template;
+use crate::template::model::{Divide, Template};
 use std::collections::BTreeMap;
 
 /// Most parts into which an edge is divided; a bound against absurd input.
@@ -71,27 +71,29 @@ struct Parts {
     share: f64,
     /// Length on the region over length in the drawing.
     stretch: f64,
+    /// Factor on the ideal part.
+    adapt: f64,
 }
 
 impl Parts {
-    fn new(length: f64, stretch: f64, part: f64, min: usize, ends: [f64; 2]) -> Self {
+    fn new(length: f64, stretch: f64, divide: &Divide, ends: [f64; 2]) -> Self {
         let extra = ends[0] + ends[1];
         let rest = (length - extra).max(0.5 * length);
-        let n = part_count(rest, part, min);
-        if n < 2 || extra > 0.5 * length {
-            let n = part_count(length, part, min);
-            let share = 1.0 / n as f64;
-            return Self {
-                at: (1..n).map(|k| k as f64 * share).collect(),
-                share,
-                stretch,
-            };
-        }
+        let n = part_count(rest, divide.length, divide.min);
+        let (n, rest, first) = if n < 2 || extra > 0.5 * length {
+            (part_count(length, divide.length, divide.min), length, 0.0)
+        } else {
+            (n, rest, ends[0])
+        };
         let share = rest / (length * n as f64);
-        let at = (1..n)
-            .map(|k| ends[0] / length + k as f64 * share)
-            .collect();
-        Self { at, share, stretch }
+        let at = (1..n).map(|k| first / length + k as f64 * share).collect();
+        let adapt = (rest / (n as f64 * divide.length)).clamp(divide.adapt[0], divide.adapt[1]);
+        Self {
+            at,
+            share,
+            stretch,
+            adapt,
+        }
     }
 
     /// The divisions seen from the start of the edge or from its end.
@@ -215,7 +217,7 @@ impl<'a> Instance<'a> {
                     }
                     _ => [0.0, 0.0],
                 };
-                Parts::new(mean, mean / drawn, d.length, d.min, ends)
+                Parts::new(mean, mean / drawn, d, ends)
             })
             .collect();
 
@@ -321,8 +323,10 @@ impl<'a> Instance<'a> {
         let mut ideal_area = Vec::new();
         for face in &template.faces {
             let start = cells.len();
-            for (nodes, reference) in cut(template, face, &chain, &drawn, &parts) {
-                ideal_area.push(crate::geometry::signed_area(&reference));
+            let (shapes, adapt) = cut(template, face, &chain, &drawn, &parts);
+            for (nodes, reference) in shapes {
+                // The ideal is the drawing before it followed the region.
+                ideal_area.push(signed_area(&reference) / adapt);
                 cells.push(Cell::new(
                     nodes,
                     reference,
@@ -366,7 +370,7 @@ fn cut(
     chain: &dyn Fn(usize, usize) -> Vec<usize>,
     drawn: &[P],
     counted: &[Parts],
-) -> Vec<(Vec<usize>, Vec<P>)> {
+) -> (Vec<(Vec<usize>, Vec<P>)>, f64) {
     let n = face.points.len();
     let edge = |i: usize| (face.points[i % n], face.points[(i + 1) % n]);
     let mut pair = None;
@@ -393,7 +397,7 @@ fn cut(
             .iter()
             .map(|&k| p(dot(drawn[k] - o, u), cross(u, drawn[k] - o)))
             .collect();
-        return vec![(nodes, reference)];
+        return (vec![(nodes, reference)], 1.0);
     };
     let mut bottom = chain(edge(i).0, edge(i).1);
     bottom.push(edge(i).1);
@@ -408,7 +412,7 @@ fn cut(
     let stretch = if face.is_area() {
         counted[d].stretch
     } else {
-        template.divides[d].length / (counted[d].share * l)
+        template.divides[d].length * counted[d].adapt / (counted[d].share * l)
     };
     let to_frame = |k: usize| {
         let r = drawn[k] - o;
@@ -436,7 +440,12 @@ fn cut(
         }
         v
     };
-    (0..parts)
+    let adapt = if face.is_area() {
+        counted[d].stretch
+    } else {
+        counted[d].adapt
+    };
+    let cells = (0..parts)
         .map(|c| {
             let mut nodes = vec![bottom[c], bottom[c + 1]];
             if c + 1 == parts {
@@ -455,7 +464,8 @@ fn cut(
             let reference = nodes.iter().map(|&k| to_frame(k)).collect();
             (nodes, reference)
         })
-        .collect()
+        .collect();
+    (cells, adapt)
 }
 
 #[cfg(test)]

@@ -260,7 +260,10 @@ impl Problem {
             return;
         }
         let path = &self.paths[side];
-        let goal: Vec<f64> = nodes.iter().map(|&k| path.nearest(x[k])).collect();
+        let goal: Vec<f64> = nodes
+            .iter()
+            .map(|&k| path.nearest_from(x[k], param[k]))
+            .collect();
         let gap = 0.02 * path.length() / (nodes.len() + 1) as f64;
         let mut step = 1.0;
         loop {

@@ -72,6 +72,8 @@ pub(crate) struct DivideSpec {
     pub(crate) min: usize,
     #[serde(default)]
     pub(crate) wide_ends: f64,
+    #[serde(default = "unchanged")]
+    pub(crate) adapt: [f64; 2],
 }
 
 #[derive(Clone, Debug, serde::Deserialize)]
@@ -138,6 +140,10 @@ pub(crate) struct CentrelineSpec {
 
 fn one() -> f64 {
     1.0
+}
+
+fn unchanged() -> [f64; 2] {
+    [1.0, 1.0]
 }
 
 fn single() -> usize {

@@ -51,6 +51,9 @@ pub(crate) struct Divide {
     /// How much of the triangle at a slanted end is added to the end part's
     /// width: 0 keeps all parts equal, 1 adds half of the triangle's base.
     pub(crate) wide_ends: f64,
+    /// Range of the factor by which all ideal parts together may follow the
+    /// length that there is.
+    pub(crate) adapt: [f64; 2],
 }
 
 /// Points on a circle; edges between successive ones are arcs of it.
@@ -320,6 +323,7 @@ impl Template {
                 length,
                 min: d.min.max(1),
                 wide_ends: d.wide_ends,
+                adapt: range(d.adapt).map_err(|p| bad(format!("`adapt`: {p}")))?,
             });
         }
         let elastic = spec
@@ -407,17 +411,19 @@ impl Template {
     }
 }
 
+/// A range of scales, checked.
+fn range(r: [f64; 2]) -> Result<[f64; 2], String> {
+    if r[0] > 0.0 && r[0] <= r[1] && r[1].is_finite() {
+        Ok(r)
+    } else {
+        Err(format!(
+            "[{}, {}] is no range of scales; give two positive numbers in order",
+            r[0], r[1]
+        ))
+    }
+}
+
 fn class(spec: &ClassSpec) -> Result<Arc<dyn Deformation>, String> {
-    let range = |r: [f64; 2]| {
-        if r[0] > 0.0 && r[0] <= r[1] && r[1].is_finite() {
-            Ok(r)
-        } else {
-            Err(format!(
-                "[{}, {}] is no range of scales; give two positive numbers in order",
-                r[0], r[1]
-            ))
-        }
-    };
     Ok(match *spec {
         ClassSpec::Rigid => Arc::new(Rigid),
         ClassSpec::Similarity(r) => {
