@@ -17,7 +17,7 @@ use super::ParcelOptions;
 /// Pieces that cost less than this are left alone.
 const WORTH: f64 = 0.45;
 /// Leans of the chords tried, degrees against the side's normal.
-const LEANS: [f64; 5] = [0.0, -9.0, 9.0, -20.0, 20.0];
+const LEANS: [f64; 7] = [0.0, -7.0, 7.0, -15.0, 15.0, -25.0, 25.0];
 
 /// Joins and recuts pairs until nothing gains or the passes are used up.
 pub(super) fn improve(mesh: &mut Mesh, options: &ParcelOptions, bench: &mut Bench) {
@@ -117,6 +117,8 @@ fn best_change(
     }
     // Every side in turn serves as the line that the chord leaves.
     let sides = Shape { ring: shape.ring.clone(), front: vec![true; shape.len()] };
+    let n = shape.len();
+    let mut done = vec![false; n];
     for side in sides.chains(options) {
         let Some(row) = Row::new(shape, &side, options) else { continue };
         let l = row.length();
@@ -126,6 +128,10 @@ fn best_change(
             let normal = row.normal(s);
             for lean in LEANS {
                 let Some(rung) = row.rung(s, turned(normal, lean.to_radians())) else { continue };
+                // From the side it meets, the like of it has been tried.
+                if done[(side.start + rung.ub.floor() as usize) % n] {
+                    continue;
+                }
                 let (first, last) = (row.first(), row.last());
                 if !Row::ordered(&first, &rung) || !Row::ordered(&rung, &last) {
                     continue;
@@ -146,6 +152,9 @@ fn best_change(
                     best = Some((c, Change::Cut { start: side.start, count: side.count, rung }));
                 }
             }
+        }
+        for k in 0..side.count {
+            done[(side.start + k) % n] = true;
         }
     }
     best

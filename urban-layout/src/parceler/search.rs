@@ -43,7 +43,7 @@ const CLEAN: f64 = 0.15;
 /// Divides a simple ring; the parts tile it.
 pub(super) fn plan(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) -> Vec<Shape> {
     let lots = shape.area() / (options.depth * options.width);
-    let mut left = (10000.0 + 1500.0 * lots.min(300.0)) as usize;
+    let mut left = (5000.0 + 700.0 * lots.min(300.0)) as usize;
     let mut work = vec![(shape.clone(), f64::INFINITY, 0)];
     let mut leaves = Vec::new();
     // The levels reach for a few rows. What they leave in a poor state is
