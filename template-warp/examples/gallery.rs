@@ -4,8 +4,8 @@
 //! `cargo run -p template-warp --example gallery -- OUT.svg` writes the picture
 //! and prints the figures that planners measure: mean deviation of corners from
 //! 90 degrees, area of the smallest enclosing box over area, share of
-//! undesirable parcels (over 15 degrees or 1.2). With a template's name as a
-//! second argument only that template is tried.
+//! undesirable parcels (over 15 degrees or 1.2). Further arguments name the
+//! templates to be tried; `--few` draws the twelve regions of the README.
 
 use std::fmt::Write as _;
 use template_warp::{
@@ -59,14 +59,17 @@ fn measure(ring: &[P]) -> (f64, f64) {
 fn main() {
     let mut args = std::env::args().skip(1);
     let out = args.next().unwrap_or_else(|| "gallery.svg".into());
-    let only: Vec<String> = args.collect();
+    let (flags, only): (Vec<String>, Vec<String>) = args.partition(|a| a.starts_with("--"));
     let mut library = Library::standard();
     if !only.is_empty() {
         let names: Vec<&str> = only.iter().map(String::as_str).collect();
         library = library.subset(&names).unwrap_or_else(|e| panic!("{e}"));
     }
-    let (cols, cell) = (5, 250.0);
-    let shapes = regions::all();
+    let (cols, cell) = (if flags.is_empty() { 5 } else { 4 }, 250.0);
+    let mut shapes = regions::all();
+    if !flags.is_empty() {
+        shapes.retain(|s| regions::FEW.contains(&s.0));
+    }
     let rows = shapes.len().div_ceil(cols);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" font-family=\"sans-serif\" font-size=\"8\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
@@ -83,7 +86,7 @@ fn main() {
         let best = best(&library, &region);
         let _ = writeln!(
             svg,
-            "<g transform=\"translate({:.1} {:.1})\">",
+            "<g transform=\"translate({:.1} {:.1})\" stroke=\"#555\" stroke-width=\"0.7\">",
             origin.x, origin.y
         );
         let size = ring
@@ -122,7 +125,7 @@ fn main() {
                         };
                     }
                     let d: String = f.ring.iter().map(|&q| put(q)).collect();
-                    let _ = writeln!(svg, "<polygon points=\"{d}\" fill=\"{fill}\" stroke=\"#555\" stroke-width=\"0.7\"/>");
+                    let _ = writeln!(svg, "<polygon points=\"{d}\" fill=\"{fill}\"/>");
                 }
                 for line in &w.centrelines {
                     let d: String = line.coords().map(|&q| put(q)).collect();
@@ -145,16 +148,25 @@ fn main() {
                 "none".into()
             }
         };
-        for (i, u) in uses.iter().enumerate() {
-            let (a, b) = (ring[i], ring[(i + 1) % ring.len()]);
-            let (colour, width) = if *u == EdgeUse::Street {
-                ("#222", 1.6)
-            } else {
-                ("#d08", 1.2)
-            };
-            let _ = writeln!(svg, "<polyline points=\"{}{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"/>", put(a), put(b));
+        let n = ring.len();
+        let start = (0..n)
+            .find(|&i| uses[i] != uses[(i + n - 1) % n])
+            .unwrap_or(0);
+        let mut run = String::new();
+        for i in 0..n {
+            let (here, next) = ((start + i) % n, (start + i + 1) % n);
+            run.push_str(&put(ring[here]));
+            if i + 1 == n || uses[next] != uses[here] {
+                let colour = if uses[here] == EdgeUse::Street {
+                    "#222"
+                } else {
+                    "#d08"
+                };
+                let _ = writeln!(svg, "<polyline points=\"{run}{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.5\"/>", put(ring[next]));
+                run.clear();
+            }
         }
-        let _ = writeln!(svg, "<text text-anchor=\"middle\" y=\"-113\">{name}</text><text text-anchor=\"middle\" y=\"-104\">{caption}</text></g>");
+        let _ = writeln!(svg, "<text stroke=\"none\" text-anchor=\"middle\" y=\"-113\">{name}</text><text stroke=\"none\" text-anchor=\"middle\" y=\"-104\">{caption}</text></g>");
     }
     svg.push_str("</svg>\n");
     std::fs::write(&out, svg).unwrap_or_else(|e| panic!("{out}: {e}"));

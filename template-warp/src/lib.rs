@@ -1,4 +1,26 @@
-//! Warp parcel and block templates onto polygonal regions.
+#![doc = include_str!("../README.md")]
+//!
+//! # The way of the data
+//!
+//! [`Region`] -> [`corners`] -> [`match_templates`] -> [`warp`]: arc length and mean
+//! value coordinates place the template's points; cells are registered and points
+//! regressed until the energy rests; areas go down a level as regions of their own;
+//! the pieces are stitched and certified; [`Warped`] comes out.
+//!
+//! # Features
+//!
+//! - `serde`: `geo_types` with serde support, for callers who store results.
+//!
+//! # References
+//!
+//! - Y.-L. Yang, J. Wang, E. Vouga, P. Wonka: Urban Pattern: Layout Design by
+//!   Hierarchical Domain Splitting. ACM TOG 32(6), 2013.
+//! - K. Hormann, M. Floater: Mean value coordinates for arbitrary planar polygons.
+//!   ACM TOG 25(4), 2006.
+//! - D. Anderson: Iterative procedures for nonlinear integral equations. JACM 12(4),
+//!   1965; on geometry solvers: Y. Peng et al., ACM TOG 37(4), 2018.
+//! - L. Liu et al.: A local/global approach to mesh parameterization. CGF 27(5), 2008.
+
 pub use geo_types;
 
 mod anderson;

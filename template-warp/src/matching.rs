@@ -141,30 +141,38 @@ pub fn match_templates(
                     }
                 }
                 keep_one_of_symmetric(&mut shifts, &chosen, variant.symmetry);
-                for (distortion, _, corners) in shifts {
+                for (distortion, first, corners) in shifts {
                     if distortion <= options.max_distortion {
-                        found.push(Candidate {
-                            template: k,
-                            name: template.name.clone(),
-                            distortion,
-                            corners,
-                            mirrored,
-                            probability: template.probability,
-                        });
+                        found.push((
+                            first,
+                            Candidate {
+                                template: k,
+                                name: template.name.clone(),
+                                distortion,
+                                corners,
+                                mirrored,
+                                probability: template.probability,
+                            },
+                        ));
                     }
                 }
             }
         }
     }
-    found.sort_by(|a, b| {
-        a.distortion
-            .total_cmp(&b.distortion)
+    // Rounded, so that equal matches of a ring that starts elsewhere stay equal;
+    // then the longer first side decides, which is a matter of shape alone.
+    let grain = |v: f64| (v * 1e9).round();
+    let scale = boundary.along.last().copied().unwrap_or(1.0);
+    found.sort_by(|(f, a), (g, b)| {
+        grain(a.distortion)
+            .total_cmp(&grain(b.distortion))
             .then(a.template.cmp(&b.template))
             .then(a.mirrored.cmp(&b.mirrored))
+            .then(grain(g / scale).total_cmp(&grain(f / scale)))
             .then(a.corners.cmp(&b.corners))
     });
     found.truncate(options.max_candidates);
-    found
+    found.into_iter().map(|f| f.1).collect()
 }
 
 /// All sets of corners that hold every firm one.

@@ -149,7 +149,7 @@ fn same(a: &[(f64, f64, f64)], b: &[(f64, f64, f64)], tolerance: f64) -> Result<
         prop_assert!(
             (p.0 - q.0).abs() < tolerance
                 && (p.1 - q.1).abs() < tolerance
-                && (p.2 - q.2).abs() < 20.0 * tolerance,
+                && (p.2 - q.2).abs() < 60.0 * tolerance,
             "{p:?} {q:?}"
         );
     }
@@ -199,14 +199,14 @@ proptest! {
         }
     }
 
-    /// Moved and turned regions give moved and turned results. Parcels may have
-    /// any width within their range at no cost, so the minimum is not a point and
-    /// rounding decides where the iteration comes to rest in it: centimetres, not
-    /// rounding errors. (Measured over 2000 cases: under 4 cm.)
+    /// Moved and turned regions give moved and turned results. Without
+    /// acceleration, whose steps are taken or not by a comparison that rounding
+    /// can tip (then the results differ by centimetres), and with a fixed number
+    /// of steps, only rounding is left: coordinates of 5e6 m hold 1e-9 m.
     #[test]
     fn the_warp_is_equivariant(ring in block(), angle in -3.0..3.0f64, east in -1.0..1.0f64) {
         let library = Library::standard().subset(&["double-row"]).unwrap();
-        let options = WarpOptions { iterations: 300, tolerance: 1e-10, ..WarpOptions::default() };
+        let options = WarpOptions { anderson_depth: 0, tolerance: 0.0, ..WarpOptions::default() };
         let run = |ring: &[P]| {
             let region = region(ring);
             let candidate = match_templates(&library, &region, &MatchOptions::default()).into_iter().next()?;
@@ -217,7 +217,7 @@ proptest! {
         let moved: Vec<P> = ring.iter().map(|q| coord! { x: c * q.x - s * q.y, y: s * q.x + c * q.y } + offset).collect();
         let undo = |q: P| { let r = q - offset; coord! { x: c * r.x + s * r.y, y: -s * r.x + c * r.y } };
         if let (Some(a), Some(b)) = (run(&ring), run(&moved)) {
-            same(&fingerprint(&a, |q| q), &fingerprint(&b, undo), 5e-2)?;
+            same(&fingerprint(&a, |q| q), &fingerprint(&b, undo), 1e-4)?;
         }
     }
 }
@@ -281,7 +281,7 @@ fn templates_fit_their_own_outline() {
             );
         } else {
             assert!(
-                warped.energy < 0.02,
+                warped.energy < 0.03,
                 "{}: {:e}",
                 template.name(),
                 warped.energy

@@ -70,6 +70,22 @@ fn strip(length: f64, d: f64, heading: impl Fn(f64) -> f64, ends: bool) -> (Vec<
     centred(right, uses)
 }
 
+/// The regions of the README's picture.
+pub const FEW: [&str; 12] = [
+    "rectangle 180 x 60",
+    "one end slanted 35",
+    "trapezoid 20/20",
+    "parallelogram 25",
+    "arc strip R 144",
+    "S strip",
+    "slim wedge",
+    "L double skew",
+    "L single",
+    "pentagon 90",
+    "rectangle 150 x 100",
+    "cul-de-sac 75 x 150",
+];
+
 /// The gallery's regions.
 pub fn all() -> Vec<Shape> {
     let tan = |deg: f64| deg.to_radians().tan();
