@@ -1,5 +1,7 @@
 //! Laws of reading a site. `URBAN_LAYOUT_LONG=1` tries many more cases.
 
+#![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
 use std::f64::consts::TAU;
 
 use geo_types::{Coord, LineString, Polygon};

@@ -73,6 +73,7 @@ fn new_file(folder: &Path) -> std::io::Result<NamedTempFile> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 mod tests {
     use super::*;
 

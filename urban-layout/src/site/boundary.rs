@@ -4,7 +4,7 @@ use geo_types::{Coord, LineString, Polygon};
 
 use super::contact::{distance, nearest, side};
 use super::index::{merged, Segments};
-use super::polygon::{clean_line, length, rings};
+use super::measure::{clean_line, length, rings};
 use super::ring::{extent, ROUNDING};
 
 /// A line this near the boundary means the boundary, in metres.

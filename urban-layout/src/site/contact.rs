@@ -255,6 +255,7 @@ fn rotate(c: Coord<f64>, (cos, sin): (f64, f64)) -> Coord<f64> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 mod tests {
     use super::*;
 

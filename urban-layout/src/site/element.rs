@@ -4,7 +4,7 @@ use geo_types::{Coord, LineString, Polygon};
 
 use super::boolean::{area, difference, intersection, open, oriented, total_area};
 use super::boundary::Boundary;
-use super::polygon::{bounds, without_slivers};
+use super::measure::{bounds, rings, without_slivers};
 use super::warning::{Warning, WarningKind};
 use super::{Element, GivenRoad};
 
@@ -56,14 +56,14 @@ fn clipped(
     warnings: &mut Vec<Warning>,
 ) -> Vec<Polygon<f64>> {
     let outline = &element.polygon;
-    let meets = super::polygon::rings(std::slice::from_ref(outline))
+    let meets = rings(std::slice::from_ref(outline))
         .flat_map(|ring| ring.0.windows(2))
         .any(|w| boundary.meets(w[0], w[1]));
     // Rings that do not meet are one inside the other or apart; the element
     // that holds the whole site, or a hole of it, must be clipped.
     let start = open(outline.exterior())[0];
     let surrounds = parts.iter().any(|part| {
-        super::polygon::rings(std::slice::from_ref(part))
+        rings(std::slice::from_ref(part))
             .any(|ring| super::contact::inside(open(outline.exterior()), ring.0[0]))
     });
     if !meets && !surrounds && boundary.contains(start) {

@@ -268,7 +268,10 @@ mod tests {
     fn enclosing_by_index_agrees_with_the_plain_count() {
         let ring: Vec<Coord<f64>> = (0..37)
             .map(|k| {
-                let (angle, r) = (f64::from(k) / 37.0 * 6.283, 5.0 + f64::from(k * 7 % 5));
+                let (angle, r) = (
+                    f64::from(k) / 37.0 * std::f64::consts::TAU,
+                    5.0 + f64::from(k * 7 % 5),
+                );
                 at(r * angle.cos(), r * angle.sin())
             })
             .collect();

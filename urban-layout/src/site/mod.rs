@@ -8,6 +8,7 @@ mod element;
 pub(crate) mod fault;
 mod index;
 mod kind;
+mod measure;
 mod polygon;
 mod read;
 mod ring;
