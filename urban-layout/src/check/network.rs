@@ -108,14 +108,14 @@ impl<'a> Network<'a> {
         self.leads_out.len()
     }
 
-    /// The junction where a street starts.
-    pub(crate) fn node(&self, id: u64) -> Option<&Node> {
-        self.by_id.get(&id).map(|number| &self.nodes[*number])
+    /// Number of the node of an id.
+    pub(crate) fn number(&self, id: u64) -> Option<usize> {
+        self.by_id.get(&id).copied()
     }
 
     /// Component of a street.
     pub(crate) fn component_of(&self, street: &Street) -> Option<usize> {
-        self.node(street.from).map(|node| node.component)
+        self.number(street.from).map(|number| self.nodes[number].component)
     }
 
     /// Whether a street belongs to a component that leads out.

@@ -76,7 +76,6 @@ fn stubs(network: &Network<'_>, exits: &Exits) -> Vec<String> {
 /// For each node, the number of the connected set of given roads that it is on.
 fn given_sets(network: &Network<'_>) -> Vec<Option<usize>> {
     let mut set: Vec<Option<usize>> = vec![None; network.nodes.len()];
-    let number = |id: u64| network.nodes.iter().position(|n| n.id == id);
     let given = |node: &Node| node.ends.iter().any(|e| network.streets[e.street].given);
     for start in 0..set.len() {
         if set[start].is_some() || !given(&network.nodes[start]) {
@@ -91,7 +90,7 @@ fn given_sets(network: &Network<'_>) -> Vec<Option<usize>> {
                 .filter(|e| network.streets[e.street].given)
             {
                 let street = &network.streets[end.street];
-                for other in [street.from, street.to].into_iter().filter_map(number) {
+                for other in [street.from, street.to].into_iter().filter_map(|id| network.number(id)) {
                     if set[other].is_none() {
                         set[other] = Some(start);
                         stack.push(other);

@@ -6,23 +6,26 @@ use super::shape::{Chain, Mark, Shape};
 use super::trace::{level_lines, simplify, Base, Level, Path};
 use super::ParcelOptions;
 
-/// Pairs of shapes that candidate cuts leave: left and right of the cut.
-pub(super) fn cuts(shape: &Shape, options: &ParcelOptions, level: usize) -> Vec<(Shape, Shape)> {
+/// How many kinds of cuts there are; the search takes one after the other.
+pub(super) const KINDS: usize = 4;
+
+/// Pairs of shapes that the cuts of one kind leave: left and right of the cut.
+///
+/// 0: spines between two fronts; 1: offsets of one front; 2: chords at reflex
+/// corners; 3: chords straight across.
+pub(super) fn cuts(shape: &Shape, options: &ParcelOptions, kind: usize) -> Vec<(Shape, Shape)> {
     let mut paths = Vec::new();
     let mut chains = shape.chains(options);
     chains.retain(|c| c.length >= 0.5 * options.good_frontage);
     chains.sort_by(|a, b| b.length.total_cmp(&a.length));
     chains.truncate(5);
-    spines(shape, &chains, options, &mut paths);
-    offsets(shape, &chains, options, &mut paths);
-    reflex(shape, options, &mut paths);
-    if level < 2 {
-        across(shape, &chains, options, &mut paths);
+    match kind {
+        0 => spines(shape, &chains, options, &mut paths),
+        1 => offsets(shape, &chains, options, &mut paths),
+        2 => reflex(shape, options, &mut paths),
+        _ => across(shape, &chains, options, &mut paths),
     }
-    paths
-        .iter()
-        .filter_map(|p| shape.cut(p.from, &p.inner, p.to))
-        .collect()
+    paths.iter().filter_map(|p| shape.cut(p.from, &p.inner, p.to)).collect()
 }
 
 /// A front as a line to measure from: without detail far below a lot's size,

@@ -231,7 +231,7 @@ fn parcel_cost(q: &Quality, options: &ParcelOptions) -> f64 {
         c += 0.8 + (0.15 * (x - 1.0)).clamp(0.0, 0.4) + (0.12 * (y - 1.0)).clamp(0.0, 1.2);
     }
     let s = a.ln();
-    c += 0.15 * s * s;
+    c += 0.2 * s * s;
     // Above about 1.3 lots a through lot would do for two: it must be dearer
     // than two rows back to back, and cheaper than a lot with a green behind.
     c += (0.5 * (a - 1.3)).clamp(0.0, 0.35);

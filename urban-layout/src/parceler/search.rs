@@ -8,7 +8,7 @@
 //! that results do not depend on the machine.
 
 use super::absorb::absorb;
-use super::cuts::cuts;
+use super::cuts::{cuts, KINDS};
 use super::geom::P;
 use super::ladder::refine;
 use super::quality::{cost, measure};
@@ -51,7 +51,8 @@ pub(super) fn plan(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) ->
     while let Some((shape, was, round)) = work.pop() {
         let start = bench.work;
         let share = if round == 0 { left / 2 } else { left / 4 };
-        let best = deepen(&shape, options, bench, 0, start + share);
+        let first = quick(&shape, options, bench);
+        let best = deepen(&shape, first, options, bench, 0, start + share);
         left = left.saturating_sub(bench.work - start);
         let split = best.leaves.len() > 1 && best.cost < was - 1e-6;
         for (c, leaf) in best.leaves {
@@ -124,15 +125,33 @@ fn clean(plan: &Plan, area: f64, options: &ParcelOptions) -> bool {
     plan.cost < CLEAN * (area / (options.depth * options.width)).max(1.0)
 }
 
-/// The best plan that the remaining levels and budget find.
+/// What no plan for the shape can undercut: land that no street reaches stays
+/// green.
+fn bound(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) -> f64 {
+    if shape.frontage() >= options.min_frontage {
+        return 0.0;
+    }
+    bench.work += 1;
+    cost(&measure(&shape.ring, &shape.front, &mut bench.scratch), options)
+}
+
+/// A structural cut with the quick plans of its two sides.
+struct Candidate {
+    cost: f64,
+    area: f64,
+    sides: [(Shape, Plan); 2],
+}
+
+/// The best plan that the remaining levels and budget find, from the quick
+/// plan `best` on.
 fn deepen(
     shape: &Shape,
+    mut best: Plan,
     options: &ParcelOptions,
     bench: &mut Bench,
     level: usize,
     budget: usize,
 ) -> Plan {
-    let mut best = quick(shape, options, bench);
     let area = shape.area();
     let unit = options.depth * options.width;
     if level >= BEAM.len()
@@ -142,34 +161,63 @@ fn deepen(
     {
         return best;
     }
-    let mut found: Vec<(f64, Shape, Shape)> = Vec::new();
-    let candidates = cuts(shape, options, level);
-    // Tracing and shooting cost by the vertex, not by the parcel.
-    bench.work += candidates.len() * shape.len() / 10;
-    for (l, r) in candidates {
-        if bench.work > budget {
-            break;
-        }
-        if l.area().min(r.area()) < 0.1 * unit {
+    let mut found: Vec<Candidate> = Vec::new();
+    for kind in 0..KINDS {
+        // Deep down, cutting straight across only halves rows.
+        if kind == 3 && level >= 2 {
             continue;
         }
-        let c = quick(&l, options, bench).cost + quick(&r, options, bench).cost;
-        found.push((c, l, r));
-    }
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    for (c, l, r) in found.into_iter().take(BEAM[level]) {
-        if bench.work > budget && c >= best.cost {
+        let pairs = cuts(shape, options, kind);
+        // Tracing and shooting cost by the vertex, not by the parcel.
+        bench.work += pairs.len() * shape.len() / 10;
+        for (l, r) in pairs {
+            if bench.work > budget {
+                break;
+            }
+            if l.area().min(r.area()) < 0.1 * unit
+                || bound(&l, options, bench) + bound(&r, options, bench) > best.cost - GAIN
+            {
+                continue;
+            }
+            let (pl, pr) = (quick(&l, options, bench), quick(&r, options, bench));
+            found.push(Candidate {
+                cost: pl.cost + pr.cost,
+                area: l.area(),
+                sides: [(l, pl), (r, pr)],
+            });
+        }
+        // Nothing to look for beyond a plan that is as good as perfect.
+        if found.iter().any(|c| c.cost < 0.25 * CLEAN * area / unit) {
             break;
         }
-        let pl = deepen(&l, options, bench, level + 1, budget);
-        let pr = deepen(&r, options, bench, level + 1, budget);
+    }
+    found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    // The same line often turns up twice, seen from either side: the beam is
+    // for different plans.
+    let like = |a: &Candidate, b: &Candidate| {
+        let other = (a.area - b.area).abs().min((area - a.area - b.area).abs());
+        (a.cost - b.cost).abs() < 0.02 && other < 0.02 * unit
+    };
+    let mut taken: Vec<Candidate> = Vec::new();
+    for c in found {
+        if taken.len() == BEAM[level] {
+            break;
+        }
+        if !taken.iter().any(|t| like(t, &c)) {
+            taken.push(c);
+        }
+    }
+    for candidate in taken {
+        if bench.work > budget && candidate.cost >= best.cost {
+            break;
+        }
+        let [(l, pl), (r, pr)] = candidate.sides;
+        let pl = deepen(&l, pl, options, bench, level + 1, budget);
+        let pr = deepen(&r, pr, options, bench, level + 1, budget);
         if pl.cost + pr.cost < best.cost - GAIN {
             let mut leaves = pl.leaves;
             leaves.extend(pr.leaves);
-            best = Plan {
-                cost: pl.cost + pr.cost,
-                leaves,
-            };
+            best = Plan { cost: pl.cost + pr.cost, leaves };
         }
         if clean(&best, area, options) {
             break;

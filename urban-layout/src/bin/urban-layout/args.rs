@@ -1,0 +1,151 @@
+//! What the command line may say.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use urban_layout::site::Units;
+use urban_layout::{Error, FieldKind, PlanOptions, Result, Site};
+
+/// Neighbourhood plans from a site boundary.
+#[derive(Debug, Parser)]
+#[command(name = "urban-layout", version, about, arg_required_else_help = true)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) verb: Verb,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Verb {
+    /// Lay out a site: writes layout.geojson, layout.svg and metrics.json.
+    Generate(Generate),
+    /// Prove a layout against its site; exit status 3 if a law fails.
+    Check(Check),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Generate {
+    /// The site, a GeoJSON file.
+    pub(crate) site: PathBuf,
+    /// Folder for the results; made if it is not there.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// Seed of all random choices.
+    #[arg(long, default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// Make so many plans, with seeds counted up from --seed, in folders 001, 002, ...
+    #[arg(long, default_value_t = 1)]
+    pub(crate) variations: u32,
+    /// The cross field that streets follow.
+    #[arg(long, value_enum, default_value_t = Field::Distance)]
+    pub(crate) field: Field,
+    /// Depth of the ideal parcel, metres.
+    #[arg(long, default_value_t = 30.0)]
+    pub(crate) parcel_length: f64,
+    /// Frontage of the ideal parcel, metres.
+    #[arg(long, default_value_t = 18.0)]
+    pub(crate) parcel_width: f64,
+    /// Width of new streets, metres.
+    #[arg(long, default_value_t = 15.0)]
+    pub(crate) street_width: f64,
+    /// Templates that may be used, by name; all if none is named.
+    #[arg(long, value_delimiter = ',')]
+    pub(crate) templates: Vec<String>,
+    /// How freely streets are chosen by quality; 0 always takes the best.
+    #[arg(long, default_value_t = PlanOptions::default().temperature)]
+    pub(crate) temperature: f64,
+    /// Leave the network as the splits made it.
+    #[arg(long)]
+    pub(crate) no_optimize: bool,
+    /// Also draw layout.png.
+    #[arg(long)]
+    pub(crate) png: bool,
+    /// Worker threads; 0 for one a core. The result does not depend on it.
+    #[arg(long, default_value_t = 0)]
+    pub(crate) threads: usize,
+    #[command(flatten)]
+    pub(crate) common: Common,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Check {
+    /// The site, a GeoJSON file.
+    pub(crate) site: PathBuf,
+    /// The layout to judge, a GeoJSON file.
+    pub(crate) layout: PathBuf,
+    /// Least frontage of a parcel on a street, metres.
+    #[arg(long, default_value_t = 3.0)]
+    pub(crate) frontage: f64,
+    #[command(flatten)]
+    pub(crate) common: Common,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Common {
+    /// Unit of the site's coordinates.
+    #[arg(long, value_enum, default_value_t = UnitWord::Auto)]
+    pub(crate) units: UnitWord,
+    /// Print the figures as one JSON object.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Field {
+    Distance,
+    Harmonic,
+    Boundary,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum UnitWord {
+    /// Degrees, unless the file says metres.
+    Auto,
+    Metres,
+    Degrees,
+}
+
+impl From<Field> for FieldKind {
+    fn from(word: Field) -> Self {
+        match word {
+            Field::Distance => Self::Distance,
+            Field::Harmonic => Self::Harmonic,
+            Field::Boundary => Self::Boundary,
+        }
+    }
+}
+
+impl From<UnitWord> for Units {
+    fn from(word: UnitWord) -> Self {
+        match word {
+            UnitWord::Auto => Self::Auto,
+            UnitWord::Metres => Self::Metres,
+            UnitWord::Degrees => Self::Degrees,
+        }
+    }
+}
+
+impl Common {
+    /// The site in a file, in the unit that the command line names.
+    pub(crate) fn read(&self, path: &Path) -> Result<Site> {
+        let text = std::fs::read_to_string(path).map_err(|e| Error::reading(path, e))?;
+        Site::from_geojson(&text, self.units.into())
+    }
+}
+
+impl Generate {
+    /// The options of the `k`-th variation.
+    pub(crate) fn options(&self, k: u32) -> PlanOptions {
+        PlanOptions {
+            seed: self.seed.wrapping_add(u64::from(k)),
+            field: self.field.into(),
+            parcel_length: self.parcel_length,
+            parcel_width: self.parcel_width,
+            street_width: self.street_width,
+            templates: self.templates.clone(),
+            temperature: self.temperature,
+            optimize: !self.no_optimize,
+            threads: self.threads,
+            ..PlanOptions::default()
+        }
+    }
+}

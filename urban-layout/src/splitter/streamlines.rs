@@ -1,0 +1,312 @@
+//! Streamline-based splitting (paper section 5): a cross field over the
+//! region, candidate streamlines, their scores, and streets along the best.
+
+use crossfield::{BoundaryField, DistanceField, Domain, DomainOptions, Field, FieldDesign, HarmonicField};
+use geo_types::Coord;
+use streamline::{
+    candidates, rank, BoundaryDistance, BoundaryOptions, CandidateOptions, Continuity, Divergence, Score, Seed,
+    SingularityDistance, Stop, Streamline, TraceOptions, WidthTable,
+};
+
+use crate::adapt::Arms;
+use crate::layout::Lineage;
+use crate::network::SideKind;
+use crate::options::{FieldKind, PlanOptions};
+use crate::plane::{cross, dist};
+use crate::region::{Place, Region};
+use crate::splitter::{Action, Cut, CutMaker, Path2, Proposal, Scene, Service, Splitter};
+
+/// Splits a region along one or several streamlines of a cross field.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct StreamlineSplitter;
+
+/// Proposals offered to the planner for one region.
+const OFFERED: usize = 6;
+/// Candidates tried before a region counts as one that no street fits.
+const TRIED: usize = 400;
+/// Longest boundary distance that the width table knows, metres.
+const TABLE_REACH: f64 = 400.0;
+
+impl Splitter for StreamlineSplitter {
+    fn name(&self) -> &'static str {
+        "streamline"
+    }
+
+    fn propose(&self, scene: &Scene<'_>, region: &Region) -> Vec<Proposal> {
+        let service = Service::of(region, scene.options);
+        if !service.wants_street(region) && !service.too_long {
+            return Vec::new();
+        }
+        let Some(field) = field(region, scene.options) else { return Vec::new() };
+        propose_from(scene, region, &service, &field)
+    }
+}
+
+/// The cross field of a region, `None` where the region cannot be meshed.
+fn field(region: &Region, options: &PlanOptions) -> Option<Field> {
+    let edge_length = (region.area.sqrt() / 28.0).clamp(5.0, 25.0);
+    let domain = Domain::new(&region.polygon(), &DomainOptions { edge_length, ..DomainOptions::default() }).ok()?;
+    match options.field {
+        FieldKind::Distance => {
+            DistanceField { weights: weights(region), ..DistanceField::default() }.design(&domain).ok()
+        }
+        FieldKind::Boundary => BoundaryField::default().design(&domain).ok(),
+        FieldKind::Harmonic => HarmonicField::default().design(&domain).ok(),
+    }
+}
+
+/// Influence of each edge on the D-field: a long smooth side decides about
+/// more land than a jog of the boundary (the supplement's weights, section
+/// 4.1, which it leaves to the user).
+fn weights(region: &Region) -> Vec<Vec<f64>> {
+    region
+        .loops
+        .iter()
+        .map(|l| {
+            let n = l.points.len();
+            let corner: Vec<bool> = (0..n)
+                .map(|i| {
+                    let (a, b) = l.edge((i + n - 1) % n);
+                    crate::plane::turn(b - a, l.edge(i).1 - b).abs() > 30f64.to_radians()
+                })
+                .collect();
+            let mut out = vec![1.0; n];
+            let start = corner.iter().position(|&c| c).unwrap_or(0);
+            let mut k = 0;
+            while k < n {
+                let mut run = vec![(start + k) % n];
+                k += 1;
+                while k < n && !corner[(start + k) % n] {
+                    run.push((start + k) % n);
+                    k += 1;
+                }
+                let length: f64 = run.iter().map(|&i| dist(l.edge(i).0, l.edge(i).1)).sum();
+                for i in run {
+                    out[i] = (length / 90.0).sqrt().clamp(0.35, 1.0);
+                }
+            }
+            out
+        })
+        .collect()
+}
+
+fn propose_from(scene: &Scene<'_>, region: &Region, service: &Service, field: &Field) -> Vec<Proposal> {
+    let options = scene.options;
+    let arms = Arms(field);
+    let lines = trace_candidates(region, options, field, &arms);
+    if lines.is_empty() {
+        return Vec::new();
+    }
+    let paths: Vec<Option<Path2>> = lines.iter().map(to_path).collect();
+    let measures = Measures::new(scene, region, service, field, &lines, &paths);
+    let w = &options.weights;
+    let scores: Vec<(&dyn Score, f64)> = vec![
+        (&measures.divergence, w.divergence),
+        (&measures.boundary, w.boundary),
+        (&measures.singularities, w.singularities),
+        (&measures.continuity, w.continuity),
+    ];
+    let ranked = rank(&lines, &arms, &scores);
+    // The planner's own terms, on top of the paper's four.
+    let mut order: Vec<(f64, usize, [f64; 4])> = ranked
+        .iter()
+        .filter(|r| paths[r.index].is_some())
+        .map(|r| {
+            let parts = [r.parts[0], r.parts[1], r.parts[2], r.parts[3]];
+            (r.total + w.balance * measures.balance[r.index] + measures.service[r.index], r.index, parts)
+        })
+        .collect();
+    order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let maker = CutMaker::new(scene, region);
+    let mut made: Vec<(f64, usize, Cut, [f64; 4])> = Vec::new();
+    for &(cost, index, parts) in order.iter().take(TRIED) {
+        let Some(path) = &paths[index] else { continue };
+        let Some(cut) = maker.make(path) else { continue };
+        if made.iter().all(|(_, _, other, _)| !alike(&cut, other)) {
+            made.push((cost, index, cut, parts));
+        }
+        if made.len() >= OFFERED {
+            break;
+        }
+    }
+    made.into_iter()
+        .map(|(cost, _, cut, parts)| Proposal {
+            cost,
+            action: Action::Cut(vec![cut]),
+            lineage: Lineage {
+                split: region.path.to_string(),
+                by: "streamline".to_owned(),
+                field: Some(options.field.as_str().to_owned()),
+                scores: Some(parts),
+                energy: None,
+                seed: region.seed,
+            },
+        })
+        .collect()
+}
+
+/// Candidate streamlines from all inner vertices in both orientations.
+fn trace_candidates(region: &Region, options: &PlanOptions, field: &Field, arms: &Arms<'_>) -> Vec<Streamline> {
+    let domain = field.domain();
+    let vertices = domain.vertices();
+    let seeds: Vec<Seed> = domain
+        .inner_vertices()
+        .filter_map(|v| {
+            let mut cursor = crossfield::Cursor::default();
+            let cross = field.cross(vertices[v], &mut cursor)?;
+            let arms = cross.arms();
+            Some(Seed { at: vertices[v], directions: [arms[0], arms[1]] })
+        })
+        .collect();
+    // The paper's d_eps; coarser on large regions, where a street may lie
+    // anywhere within a block's depth.
+    let separation = (0.3 * options.parcel_length).max(region.area.sqrt() / 70.0);
+    let trace = TraceOptions { step: 8.0, max_length: 4.0 * region.perimeter(), ..TraceOptions::default() };
+    let options = CandidateOptions { separation, seed: region.seed, trace, ..CandidateOptions::default() };
+    candidates(arms, &seeds, &options).unwrap_or_default()
+}
+
+/// A streamline that ends at the boundary on both sides, as a path.
+fn to_path(line: &Streamline) -> Option<Path2> {
+    let place = |stop: Stop, at: Coord<f64>| match stop {
+        Stop::Boundary { ring, edge } => Some(Place { ring, edge, at }),
+        _ => None,
+    };
+    let (first, last) = (*line.points.first()?, *line.points.last()?);
+    Some(Path2 { from: place(line.start, first)?, to: place(line.end, last)?, points: line.points.clone() })
+}
+
+/// Everything that ranks a region's candidates.
+struct Measures {
+    divergence: Divergence,
+    boundary: BoundaryDistance,
+    singularities: SingularityDistance,
+    continuity: Continuity,
+    /// 0 where both sides are equally large, 1 where one is nothing.
+    balance: Vec<f64>,
+    /// 0 for the candidate that brings most land within reach of a street.
+    service: Vec<f64>,
+}
+
+impl Measures {
+    fn new(
+        scene: &Scene<'_>,
+        region: &Region,
+        service: &Service,
+        field: &Field,
+        lines: &[Streamline],
+        paths: &[Option<Path2>],
+    ) -> Self {
+        let options = scene.options;
+        let half = 0.5 * options.street_width;
+        // Between two streets fit 60 + 75 k metres (parcels back to back); up
+        // to a boundary without one, 30 + 75 k. The latter counts as a street
+        // one row beyond the boundary.
+        let segments: Vec<(Coord<f64>, Coord<f64>, f64)> = region
+            .edges()
+            .map(|(a, b, side)| {
+                let beyond = if side.access { 0.0 } else { options.parcel_length };
+                (a, b, half + side.inset - beyond)
+            })
+            .collect();
+        let row = 2.0 * options.parcel_length;
+        let widths: Vec<f64> = (0..8).map(|k| row + f64::from(k) * (row + options.street_width)).collect();
+        let table = WidthTable::new(&widths[..], TABLE_REACH, 0.5);
+        let network = scene.network;
+        let ends = region
+            .loops
+            .iter()
+            .flat_map(|l| l.nodes.iter().filter_map(|n| n.continues.map(|d| (n.at, d * -1.0))))
+            .chain(network.entries.iter().map(|e| (e.at, e.inward * -1.0)))
+            .collect();
+        let balance = paths.iter().map(|p| p.as_ref().map_or(1.0, |p| imbalance(region, p))).collect();
+        Self {
+            divergence: Divergence::default(),
+            boundary: BoundaryDistance::new(&segments, table, BoundaryOptions::default()),
+            singularities: SingularityDistance { singularities: field.singularities().iter().map(|s| s.at).collect() },
+            continuity: Continuity { ends, ..Continuity::default() },
+            balance,
+            service: unserved_left(service, lines, options),
+        }
+    }
+}
+
+/// Share of the larger side beyond an even split, 0 to 1.
+pub(crate) fn imbalance(region: &Region, path: &Path2) -> f64 {
+    if path.from.ring != path.to.ring {
+        return 0.4;
+    }
+    let l = &region.loops[path.from.ring];
+    let n = l.points.len();
+    // Area to the left of the path: the path, then the loop from its end back
+    // to its start.
+    let origin = path.from.at;
+    let mut twice = 0.0;
+    let mut previous = path.from.at;
+    let mut add = |p: Coord<f64>| {
+        twice += cross(previous - origin, p - origin);
+        previous = p;
+    };
+    path.points.iter().for_each(|&p| add(p));
+    let mut i = (path.to.edge + 1) % n;
+    let mut guard = 0;
+    let same_edge_ahead = path.to.edge == path.from.edge
+        && dist(l.points[path.to.edge], path.to.at) < dist(l.points[path.from.edge], path.from.at);
+    if !same_edge_ahead {
+        loop {
+            add(l.points[i]);
+            if i == path.from.edge || guard > n {
+                break;
+            }
+            i = (i + 1) % n;
+            guard += 1;
+        }
+    }
+    let share = (0.5 * twice / region.area).clamp(0.0, 1.0);
+    (2.0 * share - 1.0).abs()
+}
+
+/// For each line the land it leaves out of reach, 0 for the best of them and
+/// 1 where it helps no more than no line at all.
+fn unserved_left(service: &Service, lines: &[Streamline], options: &PlanOptions) -> Vec<f64> {
+    let reach = 1.5 * options.parcel_length + 0.5 * options.street_width;
+    let size = reach;
+    let cell = |p: Coord<f64>| ((p.x / size).floor() as i64, (p.y / size).floor() as i64);
+    let mut grid: std::collections::BTreeMap<(i64, i64), Vec<usize>> = std::collections::BTreeMap::new();
+    for (i, &p) in service.unserved.iter().enumerate() {
+        grid.entry(cell(p)).or_default().push(i);
+    }
+    let mut mark = vec![usize::MAX; service.unserved.len()];
+    let gains: Vec<f64> = lines
+        .iter()
+        .enumerate()
+        .map(|(k, line)| {
+            let mut gain = 0usize;
+            for p in crate::plane::resample(&line.points, 0.5 * reach) {
+                let (cx, cy) = cell(p);
+                for c in (-1..=1).flat_map(|x| (-1..=1).map(move |y| (cx + x, cy + y))) {
+                    for &i in grid.get(&c).map_or(&[][..], |v| v) {
+                        if mark[i] != k && dist(service.unserved[i], p) < reach {
+                            mark[i] = k;
+                            gain += 1;
+                        }
+                    }
+                }
+            }
+            gain as f64
+        })
+        .collect();
+    let most = gains.iter().copied().fold(0.0, f64::max);
+    gains.iter().map(|g| if most > 0.0 { 1.0 - g / most } else { 0.0 }).collect()
+}
+
+/// Whether two cuts are nearly the same street.
+fn alike(a: &Cut, b: &Cut) -> bool {
+    let near = |p: Coord<f64>, q: Coord<f64>| dist(p, q) < 12.0;
+    (near(a.from.at, b.from.at) && near(a.to.at, b.to.at)) || (near(a.from.at, b.to.at) && near(a.to.at, b.from.at))
+}
+
+/// Whether a place lies on a street.
+pub(crate) fn on_street(region: &Region, place: &Place) -> bool {
+    region.loops[place.ring].sides[place.edge].kind == SideKind::Street
+}
