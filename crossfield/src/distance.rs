@@ -271,7 +271,7 @@ impl Sites {
         let mut bounds = Vec::new();
         let mut size = 0.0_f64;
         for (ring, weights) in rings.iter().zip(weights) {
-            for k in 0..ring.len() {
+            for (k, &weight) in weights.iter().enumerate() {
                 let (a, b) = ring.edge(k);
                 size = size.max(a.amax());
                 let direction = ring.direction(k);
@@ -279,10 +279,10 @@ impl Sites {
                     start: a,
                     direction,
                     length: (b - a).norm(),
-                    per_weight: weights[k].recip(),
+                    per_weight: weight.recip(),
                     cross: fourth_power(direction),
                 });
-                bounds.push(Bound::of_segment(a, b, weights[k]));
+                bounds.push(Bound::of_segment(a, b, weight));
             }
             for k in (0..ring.len()).filter(|&k| ring.turn[k] < 0.0) {
                 let at = ring.points[k];

@@ -136,7 +136,8 @@ fn too_many_vertices() {
 
 #[test]
 fn options_out_of_range() {
-    let set: [(&str, fn(&mut DomainOptions, f64), &[f64]); 3] = [
+    type Set = fn(&mut DomainOptions, f64);
+    let sets: [(&str, Set, &[f64]); 3] = [
         (
             "edge_length",
             |o, v| o.edge_length = v,
@@ -153,7 +154,7 @@ fn options_out_of_range() {
             &[0.0, 180.0, f64::NAN],
         ),
     ];
-    for (name, set, values) in set {
+    for (name, set, values) in sets {
         for &value in values {
             let mut options = DomainOptions::default();
             set(&mut options, value);
