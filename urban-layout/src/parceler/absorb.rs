@@ -30,7 +30,9 @@ pub(super) fn absorb(
     let mut leaves = leaves;
     // Each gain changes the pieces, so the mesh is built anew.
     for _ in 0..12 {
-        let greens: Vec<usize> = (0..leaves.len()).filter(|&i| locked(&leaves[i].1)).collect();
+        let greens: Vec<usize> = (0..leaves.len())
+            .filter(|&i| locked(&leaves[i].1))
+            .collect();
         if greens.is_empty() {
             return leaves;
         }
@@ -42,7 +44,9 @@ pub(super) fn absorb(
                 if mesh.front[r].iter().all(|f| !f) {
                     continue;
                 }
-                let Some(union) = mesh.union(r, g) else { continue };
+                let Some(union) = mesh.union(r, g) else {
+                    continue;
+                };
                 let now = leaves[r].0 + leaves[g].0;
                 for (c, found) in uses(&union, options, bench) {
                     if c < now - 0.05 && best.as_ref().is_none_or(|b| now - c > b.0) {
@@ -51,7 +55,9 @@ pub(super) fn absorb(
                 }
             }
         }
-        let Some((_, r, g, found)) = best else { return leaves };
+        let Some((_, r, g, found)) = best else {
+            return leaves;
+        };
         let (hi, lo) = (r.max(g), r.min(g));
         leaves.remove(hi);
         leaves.remove(lo);
@@ -68,9 +74,16 @@ fn uses(union: &Union, options: &ParcelOptions, bench: &mut Bench) -> Vec<Use> {
     let all = quick(&union.shape, options, bench);
     let mut out = vec![(all.cost, all.leaves)];
     for d in DEEPER {
-        let Some(path) = shifted(union, d * options.depth, options) else { continue };
-        let Some((row, rest)) = union.shape.cut(path.from, &path.inner, path.to) else { continue };
-        let rest_cost = cost(&measure(&rest.ring, &rest.front, &mut bench.scratch), options);
+        let Some(path) = shifted(union, d * options.depth, options) else {
+            continue;
+        };
+        let Some((row, rest)) = union.shape.cut(path.from, &path.inner, path.to) else {
+            continue;
+        };
+        let rest_cost = cost(
+            &measure(&rest.ring, &rest.front, &mut bench.scratch),
+            options,
+        );
         let plan = quick(&row, options, bench);
         let mut leaves = plan.leaves;
         leaves.push((rest_cost, Leaf::Whole(rest)));
@@ -93,7 +106,10 @@ fn shifted(union: &Union, d: f64, options: &ParcelOptions) -> Option<Path> {
     }
     let mut inner = Vec::new();
     for (k, &p) in border.iter().enumerate() {
-        let (a, b) = (normals[k.saturating_sub(1)], normals[k.min(normals.len() - 1)]);
+        let (a, b) = (
+            normals[k.saturating_sub(1)],
+            normals[k.min(normals.len() - 1)],
+        );
         // Mitre, so that the offset edges stay parallel.
         let m = a + b;
         let l = dot(m, m);
@@ -108,7 +124,11 @@ fn shifted(union: &Union, d: f64, options: &ParcelOptions) -> Option<Path> {
         let mut i = if forward { union.joint } else { 0 };
         let origin = shape.ring[i];
         for _ in 0..n {
-            let j = if forward { (i + 1) % n } else { (i + n - 1) % n };
+            let j = if forward {
+                (i + 1) % n
+            } else {
+                (i + n - 1) % n
+            };
             let (p, q) = (shape.ring[i], shape.ring[j]);
             if angle(normal, q - p).abs() > 0.7 {
                 return None;
@@ -122,7 +142,11 @@ fn shifted(union: &Union, d: f64, options: &ParcelOptions) -> Option<Path> {
         }
         None
     };
-    let corner = |i: usize| Mark { edge: i, vertex: true, at: shape.ring[i] };
+    let corner = |i: usize| Mark {
+        edge: i,
+        vertex: true,
+        at: shape.ring[i],
+    };
     let (first, last) = (normals[0], normals[normals.len() - 1]);
     let from = match slide(true, first) {
         Some(mark) => {
@@ -155,9 +179,16 @@ mod tests {
             front: vec![true, false, false, false],
         };
         let options = ParcelOptions::default();
-        let (a, b) = (block.mark(1, pt(60., 30.), 0.1), block.mark(3, pt(0., 30.), 0.1));
+        let (a, b) = (
+            block.mark(1, pt(60., 30.), 0.1),
+            block.mark(3, pt(0., 30.), 0.1),
+        );
         let (back, row) = block.cut(b, &[], a).expect("a cut across");
-        let (row, back) = if row.frontage() > 1.0 { (row, back) } else { (back, row) };
+        let (row, back) = if row.frontage() > 1.0 {
+            (row, back)
+        } else {
+            (back, row)
+        };
         let mut bench = Bench::default();
         let mut leaves = quick(&row, &options, &mut bench).leaves;
         leaves.extend(quick(&back, &options, &mut bench).leaves);

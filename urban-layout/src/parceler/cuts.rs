@@ -25,7 +25,10 @@ pub(super) fn cuts(shape: &Shape, options: &ParcelOptions, kind: usize) -> Vec<(
         2 => reflex(shape, options, &mut paths),
         _ => across(shape, &chains, options, &mut paths),
     }
-    paths.iter().filter_map(|p| shape.cut(p.from, &p.inner, p.to)).collect()
+    paths
+        .iter()
+        .filter_map(|p| shape.cut(p.from, &p.inner, p.to))
+        .collect()
 }
 
 /// A front as a line to measure from: without detail far below a lot's size,

@@ -53,7 +53,9 @@ pub(super) fn improve(mesh: &mut Mesh, options: &ParcelOptions, bench: &mut Benc
                     continue;
                 }
                 let now = here + piece_cost(mesh, q, options, bench);
-                let Some(union) = mesh.union(r, q) else { continue };
+                let Some(union) = mesh.union(r, q) else {
+                    continue;
+                };
                 if let Some((c, change)) = best_change(&union.shape, now - 0.03, options, bench) {
                     let gain = now - c;
                     if best.as_ref().is_none_or(|b| gain > b.0) {
@@ -83,7 +85,11 @@ enum Change {
     Join,
     /// Two pieces: the shape turned as the row had it, the front's edge
     /// count, and the rung.
-    Cut { start: usize, count: usize, rung: Rung },
+    Cut {
+        start: usize,
+        count: usize,
+        rung: Rung,
+    },
 }
 
 fn piece_cost(mesh: &Mesh, r: usize, options: &ParcelOptions, bench: &mut Bench) -> f64 {
@@ -116,18 +122,25 @@ fn best_change(
         return best;
     }
     // Every side in turn serves as the line that the chord leaves.
-    let sides = Shape { ring: shape.ring.clone(), front: vec![true; shape.len()] };
+    let sides = Shape {
+        ring: shape.ring.clone(),
+        front: vec![true; shape.len()],
+    };
     let n = shape.len();
     let mut done = vec![false; n];
     for side in sides.chains(options) {
-        let Some(row) = Row::new(shape, &side, options) else { continue };
+        let Some(row) = Row::new(shape, &side, options) else {
+            continue;
+        };
         let l = row.length();
         let steps = (l / (0.17 * options.width)).ceil().clamp(2.0, 24.0) as usize;
         for k in 1..steps {
             let s = l * k as f64 / steps as f64;
             let normal = row.normal(s);
             for lean in LEANS {
-                let Some(rung) = row.rung(s, turned(normal, lean.to_radians())) else { continue };
+                let Some(rung) = row.rung(s, turned(normal, lean.to_radians())) else {
+                    continue;
+                };
                 // From the side it meets, the like of it has been tried.
                 if done[(side.start + rung.ub.floor() as usize) % n] {
                     continue;
@@ -149,7 +162,14 @@ fn best_change(
                 let c = c + price_bench(options, bench);
                 if c < bound {
                     bound = c;
-                    best = Some((c, Change::Cut { start: side.start, count: side.count, rung }));
+                    best = Some((
+                        c,
+                        Change::Cut {
+                            start: side.start,
+                            count: side.count,
+                            rung,
+                        },
+                    ));
                 }
             }
         }
@@ -169,7 +189,9 @@ fn price_bench(options: &ParcelOptions, bench: &mut Bench) -> f64 {
 
 /// Carries out a change of pieces `r` and `q`.
 fn apply(mesh: &mut Mesh, r: usize, q: usize, change: Change, options: &ParcelOptions) -> bool {
-    let Some(union) = mesh.union(r, q) else { return false };
+    let Some(union) = mesh.union(r, q) else {
+        return false;
+    };
     match change {
         Change::Join => {
             mesh.rings[r] = union.ids;
@@ -178,8 +200,14 @@ fn apply(mesh: &mut Mesh, r: usize, q: usize, change: Change, options: &ParcelOp
             mesh.front[q].clear();
         }
         Change::Cut { start, count, rung } => {
-            let chain = super::shape::Chain { start, count, length: f64::INFINITY };
-            let Some(row) = Row::new(&union.shape, &chain, options) else { return false };
+            let chain = super::shape::Chain {
+                start,
+                count,
+                length: f64::INFINITY,
+            };
+            let Some(row) = Row::new(&union.shape, &chain, options) else {
+                return false;
+            };
             let n = union.ids.len();
             // Numbers of the rung's two ends, new points put into the
             // neighbour's ring as well.

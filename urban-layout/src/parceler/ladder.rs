@@ -57,7 +57,11 @@ fn candidates(row: &Row, extra: &[Rung], options: &ParcelOptions) -> Vec<Candida
     let n = row.shape.len();
     let back: Vec<usize> = (row.m + 1..n)
         .filter(|&i| {
-            let (p, q, r) = (row.shape.ring[i - 1], row.shape.ring[i], row.shape.ring[(i + 1) % n]);
+            let (p, q, r) = (
+                row.shape.ring[i - 1],
+                row.shape.ring[i],
+                row.shape.ring[(i + 1) % n],
+            );
             angle(q - p, r - q).abs() > 0.2
         })
         .collect();
@@ -79,7 +83,9 @@ fn candidates(row: &Row, extra: &[Rung], options: &ParcelOptions) -> Vec<Candida
     for &i in back.iter().take(24) {
         let q = row.shape.ring[i];
         // From the foot on the front, and from a little to either side.
-        let Some((s0, _)) = foot(row, q) else { continue };
+        let Some((s0, _)) = foot(row, q) else {
+            continue;
+        };
         for ds in [0.0, -0.25, 0.25] {
             let s = s0 + ds * options.width;
             if s <= 0.0 || s >= l {
@@ -99,7 +105,11 @@ fn candidates(row: &Row, extra: &[Rung], options: &ParcelOptions) -> Vec<Candida
     for rung in extra {
         let s = place(row, rung);
         let lean = angle(row.normal(s), rung.pb - rung.pf).to_degrees();
-        out.push(Candidate { s, lean, rung: *rung });
+        out.push(Candidate {
+            s,
+            lean,
+            rung: *rung,
+        });
     }
     out.sort_by(|a, b| a.s.total_cmp(&b.s).then(a.lean.total_cmp(&b.lean)));
     out
@@ -135,7 +145,11 @@ fn shortest(
     let mut way: Vec<(f64, usize)> = vec![(f64::INFINITY, usize::MAX); all.len()];
     let mut end = (f64::INFINITY, usize::MAX);
     for j in 0..=all.len() {
-        let (s, rung) = if j < all.len() { (all[j].s, all[j].rung) } else { (l, last) };
+        let (s, rung) = if j < all.len() {
+            (all[j].s, all[j].rung)
+        } else {
+            (l, last)
+        };
         let final_one = j == all.len();
         let mut best = (f64::INFINITY, usize::MAX);
         // End parcels may be wider: they often must take a slanted corner.
@@ -201,7 +215,11 @@ fn polish(
             let mut k = 0;
             while k < rungs.len() {
                 let before = if k == 0 { first } else { rungs[k - 1] };
-                let after = if k + 1 < rungs.len() { rungs[k + 1] } else { last };
+                let after = if k + 1 < rungs.len() {
+                    rungs[k + 1]
+                } else {
+                    last
+                };
                 let now = row.assess(&before, &rungs[k], options, bench).0
                     + row.assess(&rungs[k], &after, options, bench).0;
                 if now < 0.05 {
@@ -231,7 +249,9 @@ fn polish(
                     (1.0, -1.0),
                     (-1.0, 1.0),
                 ] {
-                    let Some(r) = row.rung(s + x * ds, turned(dir, y * da)) else { continue };
+                    let Some(r) = row.rung(s + x * ds, turned(dir, y * da)) else {
+                        continue;
+                    };
                     if !Row::ordered(&before, &r) || !Row::ordered(&r, &after) {
                         continue;
                     }
@@ -284,9 +304,15 @@ mod tests {
         let (c0, rungs) = row.regular(&options, &mut bench).expect("slices");
         let (c1, better) = refine(&row, c0, &rungs, &options, &mut bench);
         assert!(c1 < c0 && c1 < 0.3, "{c0} {c1}");
-        let sum = row.total(&better, &options, &mut bench, f64::INFINITY).expect("ordered");
+        let sum = row
+            .total(&better, &options, &mut bench, f64::INFINITY)
+            .expect("ordered");
         assert!((sum - c1).abs() < 1e-9);
-        let area: f64 = row.shapes(&better, &mut bench).iter().map(Shape::area).sum();
+        let area: f64 = row
+            .shapes(&better, &mut bench)
+            .iter()
+            .map(Shape::area)
+            .sum();
         assert!((area - shape.area()).abs() < 1e-9);
     }
 }

@@ -110,7 +110,14 @@ pub fn parcel(block: &Block, options: &ParcelOptions) -> Vec<Piece> {
     let mut mesh = plain.clone();
     improve::improve(&mut mesh, options, &mut bench);
     #[cfg(feature = "stat")]
-    if shape.area() > 0.0 { eprintln!("stat {} {} {}", (shape.area() / 540.0) as usize, n1, bench.work - n1); }
+    if shape.area() > 0.0 {
+        eprintln!(
+            "stat {} {} {}",
+            (shape.area() / 540.0) as usize,
+            n1,
+            bench.work - n1
+        );
+    }
     // What is returned is proved, not hoped: rounding could, in a freak case,
     // let a dividing line graze another.
     for mut mesh in [mesh, plain] {

@@ -70,8 +70,18 @@ pub(super) fn measure(ring: &[P], front: &[bool], scratch: &mut Scratch) -> Qual
         hull(&mut scratch.clean, &mut scratch.hull);
         smallest_box(&scratch.hull)
     };
-    let ratio = if area > 0.0 { (box_area / area).max(1.0) } else { f64::INFINITY };
-    Quality { area, deviation, ratio, aspect, frontage }
+    let ratio = if area > 0.0 {
+        (box_area / area).max(1.0)
+    } else {
+        f64::INFINITY
+    };
+    Quality {
+        area,
+        deviation,
+        ratio,
+        aspect,
+        frontage,
+    }
 }
 
 /// Copies the ring without its straight vertices.
@@ -90,7 +100,10 @@ fn clean(ring: &[P], out: &mut Vec<P>) {
         let mut i = 0;
         while i < out.len() && out.len() > 3 {
             let m = out.len();
-            let (a, c) = (if i > 0 { i - 1 } else { m - 1 }, if i + 1 < m { i + 1 } else { 0 });
+            let (a, c) = (
+                if i > 0 { i - 1 } else { m - 1 },
+                if i + 1 < m { i + 1 } else { 0 },
+            );
             if straight(out[a], out[i], out[c]) {
                 out.remove(i);
             } else {
@@ -126,7 +139,11 @@ fn corners(ring: &[P]) -> (f64, bool) {
         }
         (u, lu) = (v, lv);
     }
-    let mean = if count == 0 { 0.0 } else { (sum / count as f64).to_degrees() };
+    let mean = if count == 0 {
+        0.0
+    } else {
+        (sum / count as f64).to_degrees()
+    };
     (mean, convex && turning <= 4)
 }
 
@@ -223,7 +240,10 @@ fn parcel_cost(q: &Quality, options: &ParcelOptions) -> f64 {
         return 1e3 * (1.0 + a.max(0.0));
     }
     let mut c = 0.0;
-    let (x, y) = (q.deviation / BAD_DEVIATION, (q.ratio - 1.0) / (BAD_RATIO - 1.0));
+    let (x, y) = (
+        q.deviation / BAD_DEVIATION,
+        (q.ratio - 1.0) / (BAD_RATIO - 1.0),
+    );
     c += 0.25 * x.min(1.0).powi(2) + 0.25 * y.min(1.0).powi(2);
     // A ramp just below each limit keeps a parcel from resting on it.
     c += 0.3 * ((x - 0.85) / 0.15).clamp(0.0, 1.0) + 0.3 * ((y - 0.85) / 0.15).clamp(0.0, 1.0);
@@ -250,7 +270,11 @@ fn parcel_cost(q: &Quality, options: &ParcelOptions) -> f64 {
 /// Cost of a piece as green land: mostly its area. A scrap that no street
 /// reaches is worth less than the same scrap on a street.
 fn green_cost(q: &Quality, options: &ParcelOptions) -> f64 {
-    let base = if q.frontage < options.min_frontage { 1.3 } else { 0.6 };
+    let base = if q.frontage < options.min_frontage {
+        1.3
+    } else {
+        0.6
+    };
     base + 2.1 * q.area.max(0.0) / (options.depth * options.width)
 }
 

@@ -57,9 +57,8 @@ pub(super) fn plan(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) ->
         let split = best.leaves.len() > 1 && best.cost < was - 1e-6;
         for (c, leaf) in best.leaves {
             let lots = leaf.shape().area() / (options.depth * options.width);
-            let poor = lots > 1.5
-                && c > 0.3 * lots
-                && leaf.shape().frontage() > options.good_frontage;
+            let poor =
+                lots > 1.5 && c > 0.3 * lots && leaf.shape().frontage() > options.good_frontage;
             if split && poor && round < 6 && left > 500 {
                 work.push((leaf.into_shape(), c, round + 1));
             } else {
@@ -100,8 +99,14 @@ impl Leaf {
 pub(super) fn quick(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) -> Plan {
     let area = shape.area();
     bench.work += 1;
-    let c = cost(&measure(&shape.ring, &shape.front, &mut bench.scratch), options);
-    let mut best = Plan { cost: c, leaves: vec![(c, Leaf::Whole(shape.clone()))] };
+    let c = cost(
+        &measure(&shape.ring, &shape.front, &mut bench.scratch),
+        options,
+    );
+    let mut best = Plan {
+        cost: c,
+        leaves: vec![(c, Leaf::Whole(shape.clone()))],
+    };
     if area < 0.9 * options.depth * options.width || shape.frontage() < options.min_frontage {
         return best;
     }
@@ -111,10 +116,15 @@ pub(super) fn quick(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) -
         if clean(&best, area, options) {
             break;
         }
-        let Some(row) = Row::new(shape, chain, options) else { continue };
+        let Some(row) = Row::new(shape, chain, options) else {
+            continue;
+        };
         if let Some((c, rungs)) = row.regular(options, bench) {
             if c < best.cost {
-                best = Plan { cost: c, leaves: vec![(c, Leaf::Row(Box::new(row), rungs))] };
+                best = Plan {
+                    cost: c,
+                    leaves: vec![(c, Leaf::Row(Box::new(row), rungs))],
+                };
             }
         }
     }
@@ -132,7 +142,10 @@ fn bound(shape: &Shape, options: &ParcelOptions, bench: &mut Bench) -> f64 {
         return 0.0;
     }
     bench.work += 1;
-    cost(&measure(&shape.ring, &shape.front, &mut bench.scratch), options)
+    cost(
+        &measure(&shape.ring, &shape.front, &mut bench.scratch),
+        options,
+    )
 }
 
 /// A structural cut with the quick plans of its two sides.
@@ -217,7 +230,10 @@ fn deepen(
         if pl.cost + pr.cost < best.cost - GAIN {
             let mut leaves = pl.leaves;
             leaves.extend(pr.leaves);
-            best = Plan { cost: pl.cost + pr.cost, leaves };
+            best = Plan {
+                cost: pl.cost + pr.cost,
+                leaves,
+            };
         }
         if clean(&best, area, options) {
             break;

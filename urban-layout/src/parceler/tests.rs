@@ -16,14 +16,21 @@ fn c(x: f64, y: f64) -> Coord<f64> {
 
 fn cases() -> ProptestConfig {
     let long = std::env::var("URBAN_LAYOUT_LONG").is_ok_and(|v| v == "1");
-    ProptestConfig { cases: if long { 3000 } else { 48 }, ..ProptestConfig::default() }
+    ProptestConfig {
+        cases: if long { 3000 } else { 48 },
+        ..ProptestConfig::default()
+    }
 }
 
 /// A simple ring around the origin, with a random street mask.
 fn star() -> impl Strategy<Value = Block> {
     let spoke = (0.15..1.0f64, 0.25..1.0f64, prop::bool::weighted(0.6));
-    (prop::collection::vec(spoke, 3..24), 10.0..130.0f64, 0.2..1.0f64).prop_map(
-        |(spokes, size, squash)| {
+    (
+        prop::collection::vec(spoke, 3..24),
+        10.0..130.0f64,
+        0.2..1.0f64,
+    )
+        .prop_map(|(spokes, size, squash)| {
             let total: f64 = spokes.iter().map(|s| s.0).sum();
             let mut at = 0.0;
             let (mut ring, mut front) = (Vec::new(), Vec::new());
@@ -33,8 +40,7 @@ fn star() -> impl Strategy<Value = Block> {
                 front.push(f);
             }
             Block { ring, front }
-        },
-    )
+        })
 }
 
 /// A strip along a wavy street with a ragged back, the usual case.
@@ -68,14 +74,22 @@ fn strip() -> impl Strategy<Value = Block> {
 fn hostile() -> impl Strategy<Value = Block> {
     prop_oneof![
         // Needle.
-        (10.0..500.0f64, -9.0..1.0f64)
-            .prop_map(|(l, e)| vec![c(0., 0.), c(l, 0.), c(l, 10f64.powf(e))]),
+        (10.0..500.0f64, -9.0..1.0f64).prop_map(|(l, e)| vec![
+            c(0., 0.),
+            c(l, 0.),
+            c(l, 10f64.powf(e))
+        ]),
         // Comb with narrow teeth.
         (2usize..9, 0.01..20.0f64, 5.0..60.0f64).prop_map(|(n, w, h)| {
             let mut ring = vec![c(0., 0.), c(n as f64 * (w + 7.0), 0.)];
             for k in (0..n).rev() {
                 let x = k as f64 * (w + 7.0);
-                ring.extend([c(x + w + 7.0, 8.), c(x + w, 8.), c(x + w, 8. + h), c(x, 8. + h)]);
+                ring.extend([
+                    c(x + w + 7.0, 8.),
+                    c(x + w, 8.),
+                    c(x + w, 8. + h),
+                    c(x, 8. + h),
+                ]);
                 if k > 0 {
                     ring.push(c(x, 8.));
                 }
@@ -138,19 +152,30 @@ fn check(block: &Block, options: &ParcelOptions) -> Result<(), TestCaseError> {
         prop_assert!(area(&p.ring) > 0.0 && is_simple(&p.ring), "{:?}", p.ring);
         for i in 0..p.ring.len() {
             let (a, b) = (p.ring[i], p.ring[(i + 1) % p.ring.len()]);
-            prop_assert!(edges.insert((bits(a), bits(b)), (a, b)).is_none(), "edge used twice");
+            prop_assert!(
+                edges.insert((bits(a), bits(b)), (a, b)).is_none(),
+                "edge used twice"
+            );
         }
     }
     let n = block.ring.len();
-    let outline: f64 = (0..n).map(|i| dist(block.ring[i], block.ring[(i + 1) % n])).sum();
+    let outline: f64 = (0..n)
+        .map(|i| dist(block.ring[i], block.ring[(i + 1) % n]))
+        .sum();
     let open: f64 = edges
         .iter()
         .filter(|((a, b), _)| !edges.contains_key(&(*b, *a)))
         .map(|(_, (a, b))| dist(*a, *b))
         .sum();
-    prop_assert!((open - outline).abs() <= 1e-9 * outline, "outline {open} of {outline}");
+    prop_assert!(
+        (open - outline).abs() <= 1e-9 * outline,
+        "outline {open} of {outline}"
+    );
     for v in &block.ring {
-        prop_assert!(pieces.iter().any(|p| p.ring.contains(v)), "lost vertex {v:?}");
+        prop_assert!(
+            pieces.iter().any(|p| p.ring.contains(v)),
+            "lost vertex {v:?}"
+        );
     }
     for p in pieces.iter().filter(|p| p.kind == PieceKind::Parcel) {
         let f = frontage(block, &p.ring);
@@ -162,15 +187,18 @@ fn check(block: &Block, options: &ParcelOptions) -> Result<(), TestCaseError> {
 /// Frontage of a piece, measured on the block itself.
 fn frontage(block: &Block, ring: &[Coord<f64>]) -> f64 {
     let n = block.ring.len();
-    let size = block.ring.iter().fold(1.0, |m: f64, p| m.max(p.x.abs()).max(p.y.abs()));
+    let size = block
+        .ring
+        .iter()
+        .fold(1.0, |m: f64, p| m.max(p.x.abs()).max(p.y.abs()));
     let mut sum = 0.0;
     for i in 0..ring.len() {
         let (a, b) = (ring[i], ring[(i + 1) % ring.len()]);
         let on = (0..n).filter(|&k| block.front[k]).any(|k| {
             let (s, e) = (block.ring[k], block.ring[(k + 1) % n]);
-            [a, b].iter().all(|&q| {
-                dist(q, super::geom::lerp(s, e, nearest_on(s, e, q))) < 1e-9 * size
-            })
+            [a, b]
+                .iter()
+                .all(|&q| dist(q, super::geom::lerp(s, e, nearest_on(s, e, q))) < 1e-9 * size)
         });
         if on {
             sum += dist(a, b);
@@ -300,7 +328,10 @@ fn curved_strips_have_no_bad_parcel() {
             let (bad, count, green) = score(&block);
             assert_eq!((bad, green), (0, 0.0), "radius {radius} depth {depth}");
             let rows = if both { 2.0 } else { 1.0 };
-            assert!((count as f64 - rows * 170.0 / 18.0).abs() < 3.0 + rows, "{count}");
+            assert!(
+                (count as f64 - rows * 170.0 / 18.0).abs() < 3.0 + rows,
+                "{count}"
+            );
         }
     }
 }
@@ -339,16 +370,28 @@ fn land_beyond_reach_is_green() {
     };
     let (bad, count, green) = score(&block);
     assert_eq!(bad, 0);
-    assert!(count >= 5 && green > 90.0 * 40.0 && green < 90.0 * 90.0, "{count} {green}");
+    assert!(
+        count >= 5 && green > 90.0 * 40.0 && green < 90.0 * 90.0,
+        "{count} {green}"
+    );
 }
 
 #[test]
 fn what_is_no_block_gives_no_panic() {
     let o = ParcelOptions::default();
-    let nan = Block { ring: vec![c(0., 0.), c(f64::NAN, 0.), c(1., 1.)], front: vec![true; 3] };
+    let nan = Block {
+        ring: vec![c(0., 0.), c(f64::NAN, 0.), c(1., 1.)],
+        front: vec![true; 3],
+    };
     assert!(parcel(&nan, &o).is_empty());
-    let short = Block { ring: vec![c(0., 0.), c(1., 0.)], front: vec![true; 2] };
+    let short = Block {
+        ring: vec![c(0., 0.), c(1., 0.)],
+        front: vec![true; 2],
+    };
     assert!(parcel(&short, &o).is_empty());
-    let uneven = Block { ring: vec![c(0., 0.), c(1., 0.), c(1., 1.)], front: vec![true] };
+    let uneven = Block {
+        ring: vec![c(0., 0.), c(1., 0.), c(1., 1.)],
+        front: vec![true],
+    };
     assert!(parcel(&uneven, &o).is_empty());
 }

@@ -97,7 +97,8 @@ impl Mesh {
         self.edges.clear();
         for (r, ring) in self.rings.iter().enumerate() {
             for i in 0..ring.len() {
-                self.edges.insert((ring[i], ring[(i + 1) % ring.len()]), (r, i));
+                self.edges
+                    .insert((ring[i], ring[(i + 1) % ring.len()]), (r, i));
             }
         }
     }
@@ -147,7 +148,10 @@ impl Mesh {
         let (a, b) = (&self.rings[r], &self.rings[q]);
         let (n, m) = (a.len(), b.len());
         let shared: Vec<bool> = (0..n)
-            .map(|i| self.find_edge((a[(i + 1) % n], a[i])).is_some_and(|(t, _)| t == q))
+            .map(|i| {
+                self.find_edge((a[(i + 1) % n], a[i]))
+                    .is_some_and(|(t, _)| t == q)
+            })
             .collect();
         // The first edge of the stretch, and that there is only one.
         let mut starts = (0..n).filter(|&i| shared[i] && !shared[(i + n - 1) % n]);
@@ -179,7 +183,12 @@ impl Mesh {
         }
         let ring = ids.iter().map(|&i| self.points[i]).collect();
         let border = (0..=len).map(|k| self.points[a[(start + k) % n]]).collect();
-        Some(Union { ids, shape: Shape { ring, front }, joint: n - len, border })
+        Some(Union {
+            ids,
+            shape: Shape { ring, front },
+            joint: n - len,
+            border,
+        })
     }
 
     /// Forgets pieces that have been joined into others.
@@ -264,7 +273,10 @@ impl Mesh {
     pub(super) fn settle_kinds(&mut self, options: &ParcelOptions) {
         let mut scratch = Scratch::default();
         for r in 0..self.rings.len() {
-            self.green[r] = is_green(&measure(&self.ring(r), &self.front[r], &mut scratch), options);
+            self.green[r] = is_green(
+                &measure(&self.ring(r), &self.front[r], &mut scratch),
+                options,
+            );
         }
     }
 
