@@ -328,8 +328,9 @@ impl Boundary {
             sum += on.iter().map(|l| (l / mean).ln().abs()).sum::<f64>();
             first_divide.get_or_insert(mean);
         }
-        if let (Some([low, high]), Some(mean)) = (template.depth, first_divide) {
-            let depth = area / mean;
+        if let Some([low, high]) = template.depth {
+            let longest = || lengths.iter().map(|l| l.0).fold(0.0, f64::max);
+            let depth = area / first_divide.unwrap_or_else(longest);
             if depth < low || depth > high {
                 return None;
             }

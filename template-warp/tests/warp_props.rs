@@ -51,7 +51,11 @@ fn block() -> impl Strategy<Value = Vec<P>> {
                 let (a, b) = (c[i], c[(i + 1) % 4]);
                 let d = b - a;
                 let k = (d.x.hypot(d.y) / step).round().max(1.0) as usize;
-                let amount = if i % 2 == 0 { bend * (length / 150.0).min(1.0) } else { 0.0 };
+                let amount = if i % 2 == 0 {
+                    bend * (length / 150.0).min(1.0)
+                } else {
+                    0.0
+                };
                 for j in 0..k {
                     let t = j as f64 / k as f64;
                     let q = a + d * t + coord! { x: 0.0, y: 4.0 * amount * t * (1.0 - t) };
