@@ -206,3 +206,94 @@ pub(crate) fn certify(
     }
     Ok(frontage)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::p;
+
+    fn piece(label: &str, ring: &[(f64, f64)]) -> Piece {
+        Piece {
+            label: label.to_owned(),
+            ring: ring.iter().map(|&(x, y)| p(x, y)).collect(),
+            ideal_area: 1.0,
+            mean_square: 0.0,
+            access_exempt: false,
+        }
+    }
+
+    const REGION: [P; 4] = [
+        P { x: 0., y: 0. },
+        P { x: 2., y: 0. },
+        P { x: 2., y: 2. },
+        P { x: 0., y: 2. },
+    ];
+
+    fn run(faces: &mut [Piece]) -> Result<Vec<f64>, WarpError> {
+        let uses = [
+            EdgeUse::Street,
+            EdgeUse::NoStreet,
+            EdgeUse::NoStreet,
+            EdgeUse::NoStreet,
+        ];
+        let (boundary, uses) = stitch(faces, &REGION, &uses, 1e-6);
+        certify("test", faces, &boundary, &uses)
+    }
+
+    fn three() -> Vec<Piece> {
+        vec![
+            piece("street", &[(0., 0.), (2., 0.), (2., 1.), (0., 1.)]),
+            piece("parcel", &[(0., 1.), (0.7, 1.), (0.7, 2.), (0., 2.)]),
+            piece("parcel", &[(0.7 + 1e-9, 1.), (2., 1.), (2., 2.), (0.7, 2.)]),
+        ]
+    }
+
+    #[test]
+    fn t_junctions_become_vertices_of_both_and_give_frontage() {
+        let mut faces = three();
+        let frontage = run(&mut faces).unwrap();
+        assert_eq!(faces[0].ring.len(), 5);
+        assert!(
+            (frontage[0] - 2.0).abs() < 1e-6
+                && (frontage[1] - 0.7).abs() < 1e-6
+                && (frontage[2] - 1.3).abs() < 1e-6
+        );
+    }
+
+    #[test]
+    fn each_tear_is_found() {
+        let torn = |faces: &mut Vec<Piece>| matches!(run(faces), Err(WarpError::NotTiled { .. }));
+        let mut gap = three();
+        gap.pop();
+        assert!(torn(&mut gap));
+        let mut overlap = three();
+        overlap[1].ring[1].x = 1.0;
+        overlap[1].ring[2].x = 1.0;
+        assert!(torn(&mut overlap));
+        let mut twice = three();
+        twice.push(piece("parcel", &[(0., 1.), (0.7, 1.), (0.7, 2.), (0., 2.)]));
+        assert!(torn(&mut twice));
+        let mut loose = three();
+        loose[1].ring[1].y = 1.2;
+        assert!(torn(&mut loose));
+        let mut hole = three();
+        hole.push(piece("park", &[(0.2, 0.2), (0.4, 0.2), (0.4, 0.4)]));
+        assert!(torn(&mut hole));
+    }
+
+    #[test]
+    fn each_fold_is_found() {
+        for ring in [
+            vec![(0., 1.), (0.7, 2.), (0.7, 1.), (0., 2.)],
+            vec![(0., 2.), (0.7, 2.), (0.7, 1.), (0., 1.)],
+            vec![(0., 1.), (0.7, 1.)],
+        ] {
+            let mut faces = three();
+            faces[1] = piece("parcel", &ring);
+            assert!(
+                matches!(run(&mut faces), Err(WarpError::FoldedFace { face: 1, .. })),
+                "{ring:?}"
+            );
+        }
+    }
+}

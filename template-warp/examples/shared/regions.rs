@@ -163,6 +163,14 @@ pub fn all() -> Vec<Shape> {
         polygon(&[p(0., 0.), p(130., 0.), p(62., 115.)], &[true], 15.0),
     );
     add(
+        "triangle with one street",
+        polygon(
+            &[p(0., 0.), p(130., 0.), p(10., 42.)],
+            &[true, false, false],
+            15.0,
+        ),
+    );
+    add(
         "L double",
         polygon(
             &[
