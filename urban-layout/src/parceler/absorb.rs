@@ -38,7 +38,7 @@ pub(super) fn absorb(
         }
         let shapes: Vec<Shape> = leaves.iter().map(|l| l.1.shape().clone()).collect();
         let mesh = Mesh::new(block, &shapes, options);
-        let mut best: Option<(f64, usize, usize, Vec<(f64, Leaf)>)> = None;
+        let mut best: Option<(usize, usize, Use)> = None;
         for &g in &greens {
             for r in mesh.neighbours(g) {
                 if mesh.front[r].iter().all(|f| !f) {
@@ -49,13 +49,13 @@ pub(super) fn absorb(
                 };
                 let now = leaves[r].0 + leaves[g].0;
                 for (c, found) in uses(&union, options, bench) {
-                    if c < now - 0.05 && best.as_ref().is_none_or(|b| now - c > b.0) {
-                        best = Some((now - c, r, g, found));
+                    if c < now - 0.05 && best.as_ref().is_none_or(|b| now - c > b.2 .0) {
+                        best = Some((r, g, (now - c, found)));
                     }
                 }
             }
         }
-        let Some((_, r, g, found)) = best else {
+        let Some((r, g, (_, found))) = best else {
             return leaves;
         };
         let (hi, lo) = (r.max(g), r.min(g));
