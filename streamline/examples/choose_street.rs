@@ -17,7 +17,7 @@ fn main() -> Result<(), streamline::TraceError> {
         .map(|side| (side.start, side.end, 0.0))
         .collect();
     let field = from_fn(land, |at, heading| {
-        Some(arm_nearest(0.1 * (at.x / 300.0 * 3.14).sin(), heading))
+        Some(arm_nearest(0.1 * (at.x / 95.0).sin(), heading))
     });
 
     let mut seeds = Vec::new();
@@ -71,7 +71,7 @@ fn main() -> Result<(), streamline::TraceError> {
         distinct(&lines, &ranked, 20.0).len()
     );
     for seed in 0..3 {
-        if let Some(place) = choose(&ranked, seed, 0.2) {
+        if let Some(place) = choose(&ranked, seed, 0.5) {
             println!("seed {seed} chooses place {} of the ranking", place + 1);
         }
     }

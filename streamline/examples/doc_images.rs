@@ -77,9 +77,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         },
     )?;
 
-    let walls: Vec<_> = land()
-        .exterior()
-        .lines()
+    let land = land();
+    let rings: Vec<_> = std::iter::once(land.exterior())
+        .chain(land.interiors())
+        .collect();
+    let walls: Vec<_> = rings
+        .iter()
+        .flat_map(|ring| ring.lines())
         .map(|side| (side.start, side.end, 0.0))
         .collect();
     let boundary = BoundaryDistance::new(
@@ -128,8 +132,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             380.0 - p.y
         )?;
     }
-    let land = land();
-    for ring in std::iter::once(land.exterior()).chain(land.interiors()) {
+    for ring in rings {
         writeln!(
             svg,
             "<path d=\"{}Z\" stroke=\"#222\" stroke-width=\"1.6\"/>",

@@ -20,9 +20,9 @@ pub struct Streamline {
     pub end: Stop,
     /// Where it was traced from; one of the points.
     pub seed: Coord<f64>,
-    /// Which of the two orientations of the cross at the seed it follows, 0 or
-    /// 1. Not global: around a singularity of a quarter turn the two change
-    /// places.
+    /// Which of the two orientations of the cross at the seed it follows, the
+    /// first (0) or the second (1). Not global: around a singularity of a
+    /// quarter turn the two change places.
     pub family: u8,
     /// Position of the seed in the list given to
     /// [`candidates`](crate::candidates).
@@ -232,7 +232,7 @@ impl Streamline {
     /// Unchanged if `tolerance` is not positive.
     #[must_use]
     pub fn simplify(&self, tolerance: f64) -> Self {
-        if !(tolerance > 0.0) || self.points.len() < 3 {
+        if tolerance.is_nan() || tolerance <= 0.0 || self.points.len() < 3 {
             return self.clone();
         }
         let points = &self.points;

@@ -1,4 +1,5 @@
 //! The number of threads changes nothing.
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 #![cfg(feature = "rayon")]
 
 mod support;

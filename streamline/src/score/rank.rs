@@ -127,7 +127,7 @@ pub fn choose(ranked: &[Ranked], seed: u64, temperature: f64) -> Option<usize> {
         .filter(|t| !t.is_nan())
         .min_by(f64::total_cmp)?;
     let place = ranked.iter().position(|r| r.total == best)?;
-    if !(temperature > 0.0) || !best.is_finite() {
+    if temperature.is_nan() || temperature <= 0.0 || !best.is_finite() {
         return Some(place);
     }
     let weight = |r: &Ranked| {
@@ -154,7 +154,7 @@ fn cost_all<R>(lines: &[Streamline], f: impl Fn(&Streamline) -> R) -> Vec<R> {
 }
 
 #[cfg(feature = "rayon")]
-fn cost_all<R: Send>(lines: &[Streamline], f: impl Fn(&Streamline) -> R + Sync) -> Vec<R> {
+fn cost_all<R: Send>(lines: &[Streamline], f: impl Fn(&Streamline) -> R + Sync + Send) -> Vec<R> {
     use rayon::prelude::*;
     lines.par_iter().map(f).collect()
 }

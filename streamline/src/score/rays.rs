@@ -44,7 +44,7 @@ impl RayGrid {
         let longest = width.max(height);
         let wanted = (width * height / (2.0 * walls.len() as f64 + 1.0)).sqrt();
         let mut cell = wanted.max(longest / SIDE);
-        if !(cell > 0.0) {
+        if cell.is_nan() || cell <= 0.0 {
             cell = 1.0;
         }
         let columns = (width / cell) as usize + 1;

@@ -110,8 +110,8 @@ pub(crate) fn attempt<F: DirectionField + ?Sized>(
         let Some(direction) = field.direction(to, along, cursor) else {
             return Attempt::Blocked(to);
         };
-        // Written so that a direction of NaN counts as a turn.
-        if !(dot(direction, along) >= min_cosine) {
+        let cosine = dot(direction, along);
+        if cosine.is_nan() || cosine < min_cosine {
             return Attempt::Turned;
         }
         stage[i + 1] = direction;
