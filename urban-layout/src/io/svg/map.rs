@@ -62,7 +62,7 @@ pub(super) fn draw(
 
 /// Existing streets outside, in grey, with a kerb.
 fn context(canvas: &mut Canvas, site: &Site, to: &Transform) {
-    for (extra, colour) in [(36.0, "#d6d0c0"), (0.0, "#e6e1d4")] {
+    for (extra, colour) in [(30.0, "#c6bfad"), (0.0, "#e3ddcf")] {
         let mut widths: Vec<(i64, PathData)> = Vec::new();
         for street in &site.outside_streets {
             let wide = (street.width * to.scale + extra).round() as i64;
