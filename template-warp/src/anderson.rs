@@ -2,7 +2,7 @@
 //! its use on local/global geometry solvers: Peng et al. 2018). Proposals only:
 //! the caller keeps the energy from rising.
 
-use crate::geometry::{dot, P};
+use crate::geometry::{dot, exceeds, P};
 
 /// History of the last few steps.
 #[derive(Clone, Debug)]
@@ -81,28 +81,31 @@ impl Anderson {
         if m == 0 {
             return None;
         }
-        let mut a = vec![vec![0.0; m + 1]; m];
-        let mut trace = 0.0;
-        for i in 0..m {
-            for j in 0..m {
-                a[i][j] = product(&self.df[i], &self.df[j]);
-            }
-            trace += a[i][i];
-            a[i][m] = product(&self.df[i], f);
-        }
+        // The normal equations, right-hand side last in each row.
+        let mut a: Vec<Vec<f64>> = self
+            .df
+            .iter()
+            .map(|u| {
+                self.df
+                    .iter()
+                    .map(|v| product(u, v))
+                    .chain([product(u, f)])
+                    .collect()
+            })
+            .collect();
+        let trace: f64 = (0..m).map(|i| a[i][i]).sum();
         for (i, row) in a.iter_mut().enumerate() {
             row[i] += 1e-12 * trace;
         }
         for i in 0..m {
-            let pivot = a[i][i];
-            if !(pivot > 0.0) {
+            let upper = a[i].clone();
+            if !exceeds(upper[i], 0.0) {
                 return None;
             }
-            for r in i + 1..m {
-                let k = a[r][i] / pivot;
-                for c in i..=m {
-                    let v = a[i][c];
-                    a[r][c] -= k * v;
+            for row in &mut a[i + 1..] {
+                let k = row[i] / upper[i];
+                for (v, u) in row.iter_mut().zip(&upper).skip(i) {
+                    *v -= k * u;
                 }
             }
         }

@@ -9,6 +9,11 @@ pub(crate) fn p(x: f64, y: f64) -> P {
     Coord { x, y }
 }
 
+/// Whether `a` exceeds `b`; false, as wanted at every check, if one is NaN.
+pub(crate) fn exceeds(a: f64, b: f64) -> bool {
+    a > b
+}
+
 pub(crate) fn dot(a: P, b: P) -> f64 {
     a.x * b.x + a.y * b.y
 }

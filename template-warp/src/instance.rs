@@ -361,6 +361,9 @@ impl<'a> Instance<'a> {
     }
 }
 
+/// The nodes of a cell and its reference shape.
+type Shape = (Vec<usize>, Vec<P>);
+
 /// Cells of a face: one for each part if two of its edges are divided together,
 /// the whole face otherwise. Returns nodes and reference shapes; a reference is
 /// drawn in a frame whose x axis follows the face's first edge.
@@ -370,7 +373,7 @@ fn cut(
     chain: &dyn Fn(usize, usize) -> Vec<usize>,
     drawn: &[P],
     counted: &[Parts],
-) -> (Vec<(Vec<usize>, Vec<P>)>, f64) {
+) -> (Vec<Shape>, f64) {
     let n = face.points.len();
     let edge = |i: usize| (face.points[i % n], face.points[(i + 1) % n]);
     let mut pair = None;

@@ -21,6 +21,14 @@
 //!   1965; on geometry solvers: Y. Peng et al., ACM TOG 37(4), 2018.
 //! - L. Liu et al.: A local/global approach to mesh parameterization. CGF 27(5), 2008.
 
+#![cfg_attr(
+    test,
+    allow(
+        clippy::unwrap_used,
+        reason = "a test that cannot go on should stop where it stands"
+    )
+)]
+
 pub use geo_types;
 
 mod anderson;

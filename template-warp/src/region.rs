@@ -1,7 +1,7 @@
 //! The polygon to be split, with the meaning of its edges.
 
 use crate::error::WarpError;
-use crate::geometry::{self_contact, signed_area, P};
+use crate::geometry::{exceeds, self_contact, signed_area, P};
 
 /// What lies on the other side of a region's boundary edge (paper, Fig. 4:
 /// "edges can be constrained to have certain neighbors").
@@ -78,7 +78,7 @@ impl Region {
             .iter()
             .map(|q| (q.x - ring[0].x).hypot(q.y - ring[0].y))
             .fold(0.0, f64::max);
-        if !(area.abs() > 1e-12 * size * size) {
+        if !exceeds(area.abs(), 1e-12 * size * size) {
             return Err(WarpError::ZeroArea { count: n });
         }
         if let Some((first, second)) = self_contact(&ring) {

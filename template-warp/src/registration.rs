@@ -5,7 +5,7 @@
 //! orientation; barycentre goes to barycentre in all of them, so what is left is
 //! a 2x2 matrix.
 
-use crate::geometry::{cross, dot, norm, p, P};
+use crate::geometry::{cross, dot, exceeds, norm, p, P};
 use nalgebra::Matrix2;
 
 /// An affine map of the plane: x -> `linear` x + `translation`.
@@ -313,7 +313,7 @@ impl Deformation for AreaAffine {
         let det_s = m.sxx * m.syy - m.sxy * m.sxy;
         let spread = m.sxx + m.syy;
         let ratio = self.max_area_ratio.max(1.0);
-        if !(det_s > 1e-14 * spread * spread) {
+        if !exceeds(det_s, 1e-14 * spread * spread) {
             // All points on a line: no area to bound; stay a similarity.
             let s = ratio.sqrt();
             return Similarity {
@@ -503,8 +503,8 @@ mod tests {
                 max_area_ratio: 1.1,
             },
         ];
-        let one = vec![p(1.0, 1.0); 4];
-        let line = vec![p(0., 0.), p(1., 0.), p(2., 0.), p(3., 0.)];
+        let one = [p(1.0, 1.0); 4];
+        let line = [p(0., 0.), p(1., 0.), p(2., 0.), p(3., 0.)];
         for class in classes {
             for (from, to) in [
                 (&[][..], &[][..]),

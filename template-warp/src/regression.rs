@@ -1,7 +1,7 @@
 //! Alignments of the regression step (paper, section 4.1, "Regression"): nodes
 //! on a fitted line, a chord, a fitted circle or a free smooth curve.
 
-use crate::geometry::{dist, dot, norm, p, P};
+use crate::geometry::{dist, dot, exceeds, norm, p, P};
 use crate::solve::{Align, Anchor};
 use crate::template::format::AlignKind;
 
@@ -130,7 +130,7 @@ fn fit_circle(points: &[P], weights: &[f64], last: Option<CircleFit>) -> Option<
             radius: best.radius - step.z,
         };
         let next_cost = circle_cost(points, weights, &next);
-        if !(next_cost < cost) || !(next.radius > 0.0) {
+        if !exceeds(cost, next_cost) || !exceeds(next.radius, 0.0) {
             break;
         }
         let done = cost - next_cost < 1e-12 * cost;
@@ -162,7 +162,7 @@ fn algebraic_circle(points: &[P], weights: &[f64]) -> Option<CircleFit> {
         zz += w * z;
     }
     let det = xx * yy - xy * xy;
-    if !(det > 1e-12 * (xx + yy).powi(2)) {
+    if !exceeds(det, 1e-12 * (xx + yy).powi(2)) {
         return None;
     }
     let c = p(

@@ -240,9 +240,9 @@ impl Problem {
 
     /// Puts positions onto what holds them: corners, sides (in order), curves.
     fn project(&self, x: &mut [P], param: &mut [f64], circles: &mut [Option<CircleFit>]) {
-        for k in 0..x.len() {
-            if self.anchor[k] == Anchor::Corner {
-                x[k] = self.pos[k];
+        for ((q, &start), &anchor) in x.iter_mut().zip(&self.pos).zip(&self.anchor) {
+            if anchor == Anchor::Corner {
+                *q = start;
             }
         }
         for (side, nodes) in self.on_side.iter().enumerate() {

@@ -1,5 +1,10 @@
 //! What is wrong is said, each fault with an error of its own.
 
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test that cannot go on should stop where it stands"
+)]
+
 use template_warp::geo_types::{coord, Coord};
 use template_warp::{
     match_templates, warp, EdgeUse, Library, MatchOptions, Region, Sizes, WarpError, WarpOptions,

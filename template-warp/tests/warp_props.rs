@@ -1,6 +1,11 @@
 //! Laws of the whole warp: exact tiling, fixed points, equivariance,
 //! independence of the start vertex, frontage.
 
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test that cannot go on should stop where it stands"
+)]
+
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 use template_warp::geo_types::{coord, Coord};

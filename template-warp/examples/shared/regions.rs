@@ -71,7 +71,7 @@ fn strip(length: f64, d: f64, heading: impl Fn(f64) -> f64, ends: bool) -> (Vec<
 }
 
 /// The regions of the README's picture.
-pub const FEW: [&str; 12] = [
+pub(crate) const FEW: [&str; 12] = [
     "rectangle 180 x 60",
     "one end slanted 35",
     "trapezoid 20/20",
@@ -87,7 +87,7 @@ pub const FEW: [&str; 12] = [
 ];
 
 /// The gallery's regions.
-pub fn all() -> Vec<Shape> {
+pub(crate) fn all() -> Vec<Shape> {
     let tan = |deg: f64| deg.to_radians().tan();
     let mut shapes: Vec<Shape> = Vec::new();
     let mut add = |name, (ring, uses): (Vec<P>, Vec<EdgeUse>)| shapes.push((name, ring, uses));

@@ -3,7 +3,7 @@
 use super::format::{AlignKind, ClassSpec, CornerSpec, SideUse, Spec};
 use super::length::Sizes;
 use crate::error::WarpError;
-use crate::geometry::{self_contact, signed_area, turn, P};
+use crate::geometry::{exceeds, self_contact, signed_area, turn, P};
 use crate::registration::{AreaAffine, Deformation, PrincipalAffine, Rigid, Similarity};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -195,7 +195,7 @@ impl Template {
         }
         let mut outline = list(&spec.outline)?;
         let ring: Vec<P> = outline.iter().map(|&i| points[i]).collect();
-        if outline.len() < 3 || !(signed_area(&ring) > 0.0) {
+        if outline.len() < 3 || !exceeds(signed_area(&ring), 0.0) {
             return Err(bad(
                 "the outline must be counter-clockwise with at least 3 points".into(),
             ));
@@ -251,7 +251,7 @@ impl Template {
                 spec.sides.len()
             )));
         }
-        if sides.len() < 3 || spec.symmetry == 0 || sides.len() % spec.symmetry != 0 {
+        if sides.len() < 3 || spec.symmetry == 0 || !sides.len().is_multiple_of(spec.symmetry) {
             return Err(bad(
                 "at least 3 corners are needed, and `symmetry` must divide their number".into(),
             ));
@@ -261,7 +261,7 @@ impl Template {
         for (k, f) in spec.face.iter().enumerate() {
             let ring = list(&f.points)?;
             let corners: Vec<P> = ring.iter().map(|&i| points[i]).collect();
-            if ring.len() < 3 || !(signed_area(&corners) > 0.0) {
+            if ring.len() < 3 || !exceeds(signed_area(&corners), 0.0) {
                 return Err(bad(format!(
                     "face {k} must be counter-clockwise with at least 3 points"
                 )));
@@ -307,7 +307,7 @@ impl Template {
         let mut divides = Vec::new();
         for d in &spec.divide {
             let length = d.length.metres(sizes);
-            if !(length > 0.0) || d.edges.is_empty() {
+            if !exceeds(length, 0.0) || d.edges.is_empty() {
                 return Err(bad("a `divide` needs edges and a positive length".into()));
             }
             let edges = d
