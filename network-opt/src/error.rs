@@ -1,5 +1,5 @@
-//! What can go wrong: one enum for the mesh, one for its check and one for
-//! the optimisation.
+//! What can go wrong: one enum for the mesh, one for its check, one for the
+//! optimisation and one for network design.
 
 use crate::mesh::{FaceId, HalfEdgeId, VertexId};
 
@@ -258,4 +258,16 @@ pub enum OptimizeError {
     /// The progress hook asked to stop; the mesh is unchanged.
     #[error("cancelled; the mesh is unchanged")]
     Cancelled,
+}
+
+/// Why a network could not be designed by an integer program.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NetworkError {
+    /// This version of the crate has no integer programs.
+    #[error("network design by integer programs is not available in version {version} of network-opt; split by streamlines or templates instead")]
+    NotAvailable {
+        /// The version of this crate.
+        version: &'static str,
+    },
 }

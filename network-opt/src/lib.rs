@@ -2,13 +2,14 @@
 
 pub use geo_types;
 
+pub mod design;
 mod error;
 pub mod mesh;
 pub mod strip;
 
-pub use error::{MeshError, MeshFault, OptimizeError};
+pub use error::{MeshError, MeshFault, NetworkError, OptimizeError};
 pub use mesh::{End, FaceId, HalfEdgeId, Locator, PlanarMesh, Split, VertexId, Wire};
 pub use strip::{
-    optimize, roads, streets, Block, Energy, Fairness, Freedom, OptimizeOptions, Report, Step,
-    StripFit, TargetShape,
+    collapse_short_edges, optimize, roads, streets, Block, Energy, Fairness, Freedom,
+    OptimizeOptions, Report, Step, StripFit, TargetShape,
 };

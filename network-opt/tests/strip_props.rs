@@ -1,5 +1,7 @@
 //! Laws of the strip optimisation (NUMERICS, "Strip fitting").
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use geo_types::{coord, Coord, LineString};
 use network_opt::{
     optimize, roads, Block, FaceId, Fairness, Freedom, OptimizeError, OptimizeOptions, PlanarMesh,

@@ -195,7 +195,7 @@ pub(super) fn arrange<E>(wires: &[Wire<E>], snap: f64) -> Result<Arrangement, Me
     let largest = lo.x.abs().max(lo.y.abs()).max(hi.x.abs()).max(hi.y.abs());
     let tolerance = (1e-9 * dist(lo, hi)).max(16.0 * f64::EPSILON * largest);
     let snap = snap.max(LEAST * tolerance);
-    if !(snap > 0.0) {
+    if snap == 0.0 {
         return Err(MeshError::Empty { snap });
     }
 
@@ -446,6 +446,7 @@ impl<E: Clone> PlanarMesh<E> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
     use crate::mesh::predicates::foot;

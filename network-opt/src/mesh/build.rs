@@ -55,7 +55,7 @@ fn link_around_vertices<E: Clone>(mesh: &mut PlanarMesh<E>) {
     spokes.sort_by(|&a, &b| {
         let (u, v) = (mesh.origin(a), mesh.origin(b));
         u.cmp(&v)
-            .then_with(|| by_angle(mesh.point(u), mesh.to_point(a), mesh.to_point(b)))
+            .then_with(|| by_angle(mesh.point(u), mesh.end(a), mesh.end(b)))
     });
     let mut from = 0;
     while from < spokes.len() {
@@ -102,9 +102,9 @@ fn find_faces<E: Clone>(mesh: &mut PlanarMesh<E>) {
         if mesh.is_contour(rep) {
             let west = mesh
                 .walk(rep)
-                .map(|h| mesh.from_point(h))
+                .map(|h| mesh.start(h))
                 .min_by(|a, b| lexical(*a, *b));
-            contours.push((west.unwrap_or(mesh.from_point(rep)), i));
+            contours.push((west.unwrap_or(mesh.start(rep)), i));
         } else {
             face_of[i] = FaceId(mesh.faces.len() as u32);
             mesh.faces.push(Face {
@@ -115,12 +115,8 @@ fn find_faces<E: Clone>(mesh: &mut PlanarMesh<E>) {
     }
     // West to east, so that what lies west of a part has its face already.
     contours.sort_by(|a, b| lexical(a.0, b.0).then(a.1.cmp(&b.1)));
-    let index = (contours.len() > 1).then(|| {
-        SegmentIndex::new(
-            mesh.edges()
-                .map(|h| (h.0, mesh.from_point(h), mesh.to_point(h))),
-        )
-    });
+    let index = (contours.len() > 1)
+        .then(|| SegmentIndex::new(mesh.edges().map(|h| (h.0, mesh.start(h), mesh.end(h)))));
     let far_west = contours.first().map_or(0.0, |c| c.0.x);
     let mut near = Vec::new();
     for &(west, i) in &contours {
@@ -160,7 +156,7 @@ pub(super) fn first_west<E: Clone>(
 ) -> Option<HalfEdgeId> {
     let mut best: Option<(HalfEdgeId, P, P)> = None;
     for h in edges {
-        let (a, b) = (mesh.from_point(h), mesh.to_point(h));
+        let (a, b) = (mesh.start(h), mesh.end(h));
         if west_of(p, a, b) && best.is_none_or(|(_, c, d)| east_of(a, b, c, d)) {
             best = Some((h, a, b));
         }

@@ -84,7 +84,7 @@ impl<E: Clone> PlanarMesh<E> {
                         x: f64::NAN,
                         y: f64::NAN,
                     },
-                    |&h| self.from_point(h),
+                    |&h| self.start(h),
                 )
             };
             let loops = self.loops(f);
@@ -139,7 +139,7 @@ impl<E: Clone> PlanarMesh<E> {
             let descents = (0..star.len())
                 .filter(|&i| {
                     let (a, b) = (star[i], star[(i + 1) % star.len()]);
-                    by_angle(at, self.to_point(a), self.to_point(b)).is_ge()
+                    by_angle(at, self.end(a), self.end(b)).is_ge()
                 })
                 .count();
             if descents != 1 {
@@ -199,10 +199,7 @@ impl<E: Clone> PlanarMesh<E> {
         if holes.len() < 2 {
             return Ok(());
         }
-        let index = SegmentIndex::new(
-            self.edges()
-                .map(|h| (h.0, self.from_point(h), self.to_point(h))),
-        );
+        let index = SegmentIndex::new(self.edges().map(|h| (h.0, self.start(h), self.end(h))));
         let far = self
             .vertices()
             .map(|v| self.point(v).x)
@@ -211,7 +208,7 @@ impl<E: Clone> PlanarMesh<E> {
         for (f, l) in holes {
             let west = self
                 .walk(l)
-                .map(|h| self.from_point(h))
+                .map(|h| self.start(h))
                 .min_by(|a, b| super::predicates::lexical(*a, *b));
             let Some(west) = west else { continue };
             index.near(P { x: far, y: west.y }, west, 0.0, &mut near);

@@ -44,7 +44,7 @@ impl<E: Clone> PlanarMesh<E> {
         h: HalfEdgeId,
         best: Option<(f64, HalfEdgeId)>,
     ) -> Option<(f64, HalfEdgeId)> {
-        let (a, b) = (self.from_point(h), self.to_point(h));
+        let (a, b) = (self.start(h), self.end(h));
         let d = dist(p, lerp(a, b, foot(p, a, b)));
         if best.is_none_or(|(d0, h0)| d < d0 || (d == d0 && h < h0)) {
             Some((d, h))
@@ -57,7 +57,7 @@ impl<E: Clone> PlanarMesh<E> {
     /// vertex, the side of the corner that holds `p` decides, not the line of
     /// the edge.
     fn facing(&self, p: P, h: HalfEdgeId, d: f64) -> (HalfEdgeId, P, f64) {
-        let (a, b) = (self.from_point(h), self.to_point(h));
+        let (a, b) = (self.start(h), self.end(h));
         let t = foot(p, a, b);
         let at = if t <= 0.0 {
             a
@@ -78,8 +78,8 @@ impl<E: Clone> PlanarMesh<E> {
                 self.dest(h)
             };
             let corner = self.outgoing(v).find(|&o| {
-                let back = self.from_point(self.prev(o));
-                super::predicates::in_wedge(at, self.to_point(o), back, p)
+                let back = self.start(self.prev(o));
+                super::predicates::in_wedge(at, self.end(o), back, p)
             });
             if let Some(o) = corner {
                 side = o;
@@ -97,10 +97,7 @@ impl<E: Clone> PlanarMesh<E> {
         Locator {
             mesh: self,
             west,
-            index: SegmentIndex::new(
-                self.edges()
-                    .map(|h| (h.0, self.from_point(h), self.to_point(h))),
-            ),
+            index: SegmentIndex::new(self.edges().map(|h| (h.0, self.start(h), self.end(h)))),
         }
     }
 }
@@ -161,7 +158,7 @@ impl<E: Clone> Locator<'_, E> {
         near.into_iter()
             .map(HalfEdgeId)
             .filter(|&h| {
-                let (a, b) = (self.mesh.from_point(h), self.mesh.to_point(h));
+                let (a, b) = (self.mesh.start(h), self.mesh.end(h));
                 let q = sub(p, lerp(a, b, foot(p, a, b)));
                 q.x.hypot(q.y) <= radius
             })

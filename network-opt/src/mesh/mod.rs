@@ -3,9 +3,10 @@
 //!
 //! In the order of the data: `arrange` turns linework into points and edges
 //! that meet only at points, `build` links them into loops and faces,
-//! `planar` is the structure and its walks, `rings` its geometry, `split`
-//! and `edit` change it, `locate` finds places in it, `check` proves it
-//! sound.
+//! `planar` is the structure and its walks, `rings` its geometry, `locate`
+//! finds places in it, `split` (after a look by `path`) and `edit` change it
+//! and `regroup` sorts the loops into faces again, `sound` judges a face's
+//! geometry, `check` proves the whole.
 
 mod arrange;
 mod build;
@@ -13,8 +14,10 @@ mod check;
 mod edit;
 mod index;
 mod locate;
+mod path;
 mod planar;
 pub(crate) mod predicates;
+mod regroup;
 mod rings;
 pub(crate) mod sound;
 mod split;

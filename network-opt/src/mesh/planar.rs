@@ -352,12 +352,12 @@ impl<E: Clone> PlanarMesh<E> {
     }
 
     /// Position of a half-edge's start.
-    pub(crate) fn from_point(&self, h: HalfEdgeId) -> P {
+    pub(crate) fn start(&self, h: HalfEdgeId) -> P {
         self.point(self.origin(h))
     }
 
     /// Position of a half-edge's end.
-    pub(crate) fn to_point(&self, h: HalfEdgeId) -> P {
+    pub(crate) fn end(&self, h: HalfEdgeId) -> P {
         self.point(self.dest(h))
     }
 

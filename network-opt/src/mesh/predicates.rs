@@ -65,6 +65,12 @@ pub(crate) fn finite(a: P) -> bool {
     a.x.is_finite() && a.y.is_finite()
 }
 
+/// Is `distance` at most `limit`, or not a number?
+#[inline]
+pub(crate) fn within(distance: f64, limit: f64) -> bool {
+    distance.partial_cmp(&limit) != Some(std::cmp::Ordering::Greater)
+}
+
 /// Parameter in `[0, 1]` of the point of segment `ab` nearest to `p`.
 #[inline]
 pub(crate) fn foot(p: P, a: P, b: P) -> f64 {
@@ -172,6 +178,7 @@ pub(crate) fn east_of(a: P, b: P, c: P, d: P) -> bool {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
     use geo_types::coord;

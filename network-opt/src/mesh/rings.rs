@@ -20,12 +20,12 @@ impl<E: Clone> PlanarMesh<E> {
     /// not repeated. A vertex that the loop passes twice (the foot of a
     /// cul-de-sac) is there twice.
     pub fn ring(&self, h: HalfEdgeId) -> Vec<Coord<f64>> {
-        self.walk(h).map(|h| self.from_point(h)).collect()
+        self.walk(h).map(|h| self.start(h)).collect()
     }
 
     /// Length of an edge.
     pub fn length(&self, h: HalfEdgeId) -> f64 {
-        norm(sub(self.to_point(h), self.from_point(h)))
+        norm(sub(self.end(h), self.start(h)))
     }
 
     /// Area of a face, its holes subtracted: infinite for the unbounded face,
@@ -38,11 +38,11 @@ impl<E: Clone> PlanarMesh<E> {
         let Some(&first) = loops.first() else {
             return 0.0;
         };
-        let o = self.from_point(first);
+        let o = self.start(first);
         let twice: f64 = loops
             .iter()
             .flat_map(|&l| self.walk(l))
-            .map(|h| cross(sub(self.from_point(h), o), sub(self.to_point(h), o)))
+            .map(|h| cross(sub(self.start(h), o), sub(self.end(h), o)))
             .sum();
         twice / 2.0
     }
@@ -105,8 +105,7 @@ impl<E: Clone> PlanarMesh<E> {
                 // Passing a vertex again closes a ring of its own.
                 let end = self.dest(h);
                 if let Some(&from) = depth.get(&end) {
-                    let mut ring: Vec<P> =
-                        stack[from..].iter().map(|&s| self.from_point(s)).collect();
+                    let mut ring: Vec<P> = stack[from..].iter().map(|&s| self.start(s)).collect();
                     ring.push(self.point(end));
                     rings.push(ring);
                     for s in stack.drain(from..) {

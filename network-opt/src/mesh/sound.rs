@@ -7,7 +7,7 @@
 //! cover each point the same number of times, and far away that is once.)
 
 use super::planar::{FaceId, HalfEdgeId, PlanarMesh, VertexId};
-use super::predicates::{dist, dist_to_segment, in_ring, in_wedge, near_segments, P};
+use super::predicates::{dist, dist_to_segment, in_ring, in_wedge, near_segments, within, P};
 use super::rings::ring_is_contour;
 
 /// A loop as vertices and their (perhaps only proposed) positions, open.
@@ -47,8 +47,7 @@ fn edges_meet(rings: &[Ring], tol: f64) -> Option<(&'static str, P)> {
     for ring in rings {
         for (i, &(v, p)) in ring.iter().enumerate() {
             let (w, q) = ring[(i + 1) % ring.len()];
-            // Not `<= tol`, so that NaN is a fault.
-            if !(dist(p, q) > tol) {
+            if within(dist(p, q), tol) {
                 return Some(("an edge is too short", p));
             }
             edges.push(Edge {

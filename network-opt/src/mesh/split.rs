@@ -1,10 +1,7 @@
 //! Splitting: a vertex into an edge, a polyline into a face.
 
-use super::index::SegmentIndex;
-use super::planar::{Face, FaceId, Half, HalfEdgeId, PlanarMesh, Vertex, VertexId};
-use super::predicates::{
-    dist, dist_to_segment, dot, finite, foot, in_ring, in_wedge, lerp, near_segments, sub, P,
-};
+use super::planar::{FaceId, Half, HalfEdgeId, PlanarMesh, Vertex, VertexId};
+use super::predicates::{dist, dot, finite, foot, lerp, sub, P};
 use crate::error::MeshError;
 use geo_types::Coord;
 
@@ -35,7 +32,7 @@ pub struct Split {
 
 /// An end that has been looked up: a vertex there is, or a cut to be made.
 #[derive(Clone, Copy, Debug)]
-enum Place {
+pub(super) enum Place {
     At(VertexId),
     Cut(HalfEdgeId, P),
 }
@@ -163,7 +160,7 @@ impl<E: Clone> PlanarMesh<E> {
             let (x, y) = (at.x, at.y);
             return Err(MeshError::NonFinitePoint { operation, x, y });
         }
-        let (a, b) = (self.from_point(h), self.to_point(h));
+        let (a, b) = (self.start(h), self.end(h));
         let (da, db) = (dist(at, a), dist(at, b));
         if da.min(db) <= self.snap {
             let v = if da <= db {
@@ -178,7 +175,7 @@ impl<E: Clone> PlanarMesh<E> {
         // Points are often found by tracing or intersecting; a millionth of
         // the extent is their error, not another place.
         let allowed = self.snap.max(1e3 * self.tolerance);
-        if !(distance <= allowed) {
+        if distance > allowed {
             return Err(MeshError::OffEdge {
                 half_edge: h,
                 x: at.x,
@@ -225,193 +222,6 @@ impl<E: Clone> PlanarMesh<E> {
         Ok(place)
     }
 
-    /// May the path be laid into the face?
-    fn check_path(&self, f: FaceId, points: &[P], from: Place, to: Place) -> Result<(), MeshError> {
-        let tol = self.tolerance;
-        let last = points.len() - 1;
-        let closed = matches!((from, to), (Place::At(a), Place::At(b)) if a == b);
-        let degenerate = |segment| MeshError::DegeneratePath {
-            segment,
-            tolerance: tol,
-        };
-        if let Some(p) = points.iter().find(|&&p| !finite(p)) {
-            return Err(MeshError::NonFinitePoint {
-                operation: "split_face",
-                x: p.x,
-                y: p.y,
-            });
-        }
-        if let Some(i) = points.windows(2).position(|w| !(dist(w[0], w[1]) > tol)) {
-            return Err(degenerate(i));
-        }
-        if closed && last < 3 {
-            return Err(degenerate(last - 1));
-        }
-        if !closed && !(dist(points[0], points[last]) > tol) {
-            return Err(degenerate(last - 1));
-        }
-
-        // The path against itself.
-        let index = (last > 8)
-            .then(|| SegmentIndex::new((0..last).map(|i| (i as u32, points[i], points[i + 1]))));
-        let mut near = Vec::new();
-        for i in 0..last {
-            let (a, b) = (points[i], points[i + 1]);
-            match &index {
-                Some(index) => index.near(a, b, tol, &mut near),
-                None => {
-                    near.clear();
-                    near.extend(0..last as u32);
-                }
-            }
-            for &j in near.iter().filter(|&&j| j as usize > i) {
-                let j = j as usize;
-                let (c, d) = (points[j], points[j + 1]);
-                let wraps = closed && i == 0 && j + 1 == last;
-                let bad = if j == i + 1 {
-                    dist_to_segment(d, a, b) <= tol || dist_to_segment(a, c, d) <= tol
-                } else if wraps {
-                    dist_to_segment(c, a, b) <= tol || dist_to_segment(b, c, d) <= tol
-                } else {
-                    near_segments(a, b, c, d, tol)
-                };
-                if bad {
-                    let (first, second) = (i, j);
-                    let (x, y) = (c.x, c.y);
-                    return Err(MeshError::PathMeetsItself {
-                        first,
-                        second,
-                        x,
-                        y,
-                    });
-                }
-            }
-        }
-
-        // The path against the boundary. Edges to be cut count as cut, and
-        // an end's own vertex or cut is shared with it.
-        let meets_boundary = |c: P, d: P, ends: (VertexId, VertexId), i: usize| {
-            let (a, b) = (points[i], points[i + 1]);
-            let shared_from = i == 0
-                && match from {
-                    Place::At(v) => ends.0 == v || ends.1 == v,
-                    Place::Cut(_, at) => c == at || d == at,
-                };
-            let shared_to = i + 1 == last
-                && match to {
-                    Place::At(v) => ends.0 == v || ends.1 == v,
-                    Place::Cut(_, at) => c == at || d == at,
-                };
-            match (shared_from, shared_to) {
-                // A straight path along an edge that is there already.
-                (true, true) => true,
-                (true, false) => {
-                    let far = if c == a { d } else { c };
-                    dist_to_segment(b, c, d) <= tol || dist_to_segment(far, a, b) <= tol
-                }
-                (false, true) => {
-                    let far = if c == b { d } else { c };
-                    dist_to_segment(a, c, d) <= tol || dist_to_segment(far, a, b) <= tol
-                }
-                (false, false) => near_segments(a, b, c, d, tol),
-            }
-        };
-        let mut parts: Vec<(P, P, VertexId, VertexId)> = Vec::new();
-        for g in self.loops(f).into_iter().flat_map(|l| self.walk(l)) {
-            self.parts_of(g, from, to, &mut parts);
-            for &(c, d, vc, vd) in &parts {
-                match &index {
-                    Some(index) => index.near(c, d, tol, &mut near),
-                    None => {
-                        near.clear();
-                        near.extend(0..last as u32);
-                    }
-                }
-                for &i in &near {
-                    let i = i as usize;
-                    let (a, b) = (points[i], points[i + 1]);
-                    if a.x.max(b.x) + tol < c.x.min(d.x)
-                        || c.x.max(d.x) + tol < a.x.min(b.x)
-                        || a.y.max(b.y) + tol < c.y.min(d.y)
-                        || c.y.max(d.y) + tol < a.y.min(b.y)
-                    {
-                        continue;
-                    }
-                    if meets_boundary(c, d, (vc, vd), i) {
-                        let p = if dist_to_segment(c, a, b) < dist_to_segment(d, a, b) {
-                            c
-                        } else {
-                            d
-                        };
-                        return Err(MeshError::PathMeetsBoundary {
-                            segment: i,
-                            face: f,
-                            x: p.x,
-                            y: p.y,
-                        });
-                    }
-                }
-            }
-        }
-        // Without contact the path is in the face if it starts into it.
-        for (end, place, toward) in [(0, from, points[1]), (1, to, points[last - 1])] {
-            let inside = match place {
-                Place::At(v) => self.find_corner(f, v, toward).is_some(),
-                Place::Cut(h, at) => {
-                    self.face(h.twin()) == f
-                        || in_wedge(at, self.to_point(h), self.from_point(h), toward)
-                }
-            };
-            if !inside {
-                let p = points[if end == 0 { 0 } else { last }];
-                return Err(MeshError::OffFace {
-                    end,
-                    face: f,
-                    x: p.x,
-                    y: p.y,
-                });
-            }
-        }
-        Ok(())
-    }
-
-    /// A half-edge as it will be once the ends' cuts are made: up to three
-    /// segments, each with the vertices it ends at (none for a cut).
-    fn parts_of(
-        &self,
-        g: HalfEdgeId,
-        from: Place,
-        to: Place,
-        parts: &mut Vec<(P, P, VertexId, VertexId)>,
-    ) {
-        parts.clear();
-        let (a, b) = (self.from_point(g), self.to_point(g));
-        let mut cuts: Vec<P> = [from, to]
-            .into_iter()
-            .filter_map(|place| match place {
-                Place::Cut(h, at) if h.edge() == g.edge() => Some(at),
-                _ => None,
-            })
-            .collect();
-        cuts.sort_by(|p, q| dot(sub(*p, a), sub(b, a)).total_cmp(&dot(sub(*q, a), sub(b, a))));
-        let (mut p, mut v) = (a, self.origin(g));
-        for q in cuts {
-            parts.push((p, q, v, VertexId::NONE));
-            (p, v) = (q, VertexId::NONE);
-        }
-        parts.push((p, b, v, self.dest(g)));
-    }
-
-    /// The half-edge of `f` that arrives at `v` before the direction of `to`.
-    fn find_corner(&self, f: FaceId, v: VertexId, to: P) -> Option<HalfEdgeId> {
-        let at = self.point(v);
-        self.outgoing(v)
-            .filter(|&o| self.face(o) == f)
-            .map(|o| (o, self.prev(o)))
-            .find(|&(o, back)| in_wedge(at, self.to_point(o), self.from_point(back), to))
-            .map(|(_, back)| back)
-    }
-
     /// As `find_corner`; a checked path always finds one.
     fn corner(&self, f: FaceId, v: VertexId, to: P) -> HalfEdgeId {
         let found = self.find_corner(f, v, to);
@@ -430,7 +240,7 @@ impl<E: Clone> PlanarMesh<E> {
             Place::Cut(h, at) => {
                 // Only the two ends of one path can cut one edge twice: then
                 // the other part is next to this one.
-                let (a, b) = (self.from_point(h), self.to_point(h));
+                let (a, b) = (self.start(h), self.end(h));
                 let part = if dot(sub(at, b), sub(b, a)) > 0.0 {
                     self.next(h)
                 } else if dot(sub(at, a), sub(b, a)) < 0.0 {
@@ -522,106 +332,5 @@ impl<E: Clone> PlanarMesh<E> {
         self.link(back, h.twin());
         self.link(h.twin(), after_a);
         h
-    }
-
-    /// Sorts loops into faces after `h` has closed a path in `f`; returns
-    /// the face left of `h` and, if another, the one right of it.
-    fn regroup_after_closing(&mut self, f: FaceId, h: HalfEdgeId) -> Vec<FaceId> {
-        let t = h.twin();
-        let mut candidates = self.loops(f);
-        candidates.extend([h, t]);
-        let (outers, holes) = self.sort_loops(&candidates);
-        let joined = self.walk(h).any(|g| g == t);
-        if joined {
-            self.set_loops(f, &outers, &holes);
-            return vec![f];
-        }
-        // The face fell in two. One side is an outer loop, bounded by the
-        // path: `inner`. It takes the holes inside it; the other side, an
-        // outer loop too or a rim around it, keeps the rest.
-        let sides = |side| {
-            let mut all: Vec<HalfEdgeId> = self.walk(side).collect();
-            all.sort_unstable();
-            all
-        };
-        let (left, right) = (sides(h), sides(t));
-        let on = |side: &[HalfEdgeId], l: HalfEdgeId| side.binary_search(&l).is_ok();
-        let left_is_rim = holes.iter().any(|&l| on(&left, l));
-        let (inner, inner_side, other_side) = if left_is_rim {
-            (t, &right, &left)
-        } else {
-            (h, &left, &right)
-        };
-        let edges: Vec<(P, P)> = self
-            .walk(inner)
-            .map(|g| (self.from_point(g), self.to_point(g)))
-            .collect();
-        let (inside, beside): (Vec<_>, Vec<_>) = holes.iter().copied().partition(|&l| {
-            !on(other_side, l) && in_ring(self.from_point(l), edges.iter().copied())
-        });
-        let (inner_outer, other): (Vec<_>, Vec<_>) =
-            outers.iter().copied().partition(|&l| on(inner_side, l));
-
-        let fresh = FaceId(self.faces.len() as u32);
-        self.faces.push(Face {
-            loops: Vec::new(),
-            live: true,
-        });
-        // The left side keeps the id, unless that would give the unbounded
-        // face's id to a bounded one.
-        let (inner_id, other_id) = if inner == h && !self.is_outside(f) {
-            (f, fresh)
-        } else {
-            (fresh, f)
-        };
-        self.set_loops(inner_id, &inner_outer, &inside);
-        self.set_loops(other_id, &other, &beside);
-        vec![self.face(h), self.face(t)]
-    }
-
-    /// The different loops among those of `candidates`, each by its first
-    /// candidate: outer loops, and contours.
-    pub(super) fn sort_loops(
-        &self,
-        candidates: &[HalfEdgeId],
-    ) -> (Vec<HalfEdgeId>, Vec<HalfEdgeId>) {
-        let mut wanted: Vec<(HalfEdgeId, usize)> = candidates
-            .iter()
-            .copied()
-            .enumerate()
-            .map(|(i, h)| (h, i))
-            .collect();
-        wanted.sort_unstable();
-        let mut done = vec![false; candidates.len()];
-        let (mut outers, mut holes) = (Vec::new(), Vec::new());
-        for (i, &rep) in candidates.iter().enumerate() {
-            if done[i] {
-                continue;
-            }
-            for h in self.walk(rep) {
-                let from = wanted.partition_point(|w| w.0 < h);
-                for w in wanted[from..].iter().take_while(|w| w.0 == h) {
-                    done[w.1] = true;
-                }
-            }
-            if self.is_contour(rep) {
-                holes.push(rep);
-            } else {
-                outers.push(rep);
-            }
-        }
-        (outers, holes)
-    }
-
-    /// Makes these the loops of a face, and it the face of their half-edges.
-    pub(super) fn set_loops(&mut self, f: FaceId, outers: &[HalfEdgeId], holes: &[HalfEdgeId]) {
-        let loops: Vec<HalfEdgeId> = outers.iter().chain(holes).copied().collect();
-        for &l in &loops {
-            let sides: Vec<HalfEdgeId> = self.walk(l).collect();
-            for h in sides {
-                self.halves[h.0 as usize].face = f;
-            }
-        }
-        self.faces[f.0 as usize].loops = loops;
     }
 }

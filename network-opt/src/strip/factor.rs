@@ -143,6 +143,7 @@ impl std::fmt::Debug for Factor {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
 

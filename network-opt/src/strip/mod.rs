@@ -1,18 +1,23 @@
 //! Global optimisation of a street network (Urban Pattern, section 6).
 //!
-//! In the order of the data: `roads` finds the chains whose fairness counts,
-//! `target` says where a block's vertices would like to be, `rails` where a
+//! In the order of the data: `short` collapses short edges, `roads` finds the
+//! chains whose fairness counts, `target` says where a block's vertices would like to be, `rails` where a
 //! sliding junction may go, `system` is the energy and its sparse matrix,
-//! `guard` keeps faces from turning inside out, `optimize` is the loop.
+//! `factor` solves it, `guard` keeps faces from turning inside out, `optimize`
+//! is the loop over `options`.
 
 mod factor;
 mod guard;
 mod optimize;
+mod options;
 mod rails;
 mod roads;
+mod short;
 mod system;
 mod target;
 
-pub use optimize::{optimize, Block, Energy, Fairness, Freedom, OptimizeOptions, Report, Step};
+pub use optimize::optimize;
+pub use options::{Block, Energy, Fairness, Freedom, OptimizeOptions, Report, Step};
 pub use roads::{roads, streets};
+pub use short::collapse_short_edges;
 pub use target::{StripFit, TargetShape};

@@ -1,6 +1,6 @@
 //! Where a sliding junction may go: along its straight boundary edge.
 
-use super::optimize::Freedom;
+use super::options::Freedom;
 use crate::mesh::predicates::{dist_to_segment, dot, norm, sub, P};
 use crate::mesh::{PlanarMesh, VertexId};
 
@@ -32,7 +32,7 @@ pub(super) fn rail<E: Clone>(
     for (i, &g) in edges.iter().enumerate() {
         for &h in &edges[i + 1..] {
             let (g, h) = (g.min(h), g.max(h));
-            let (p, q) = (mesh.to_point(g), mesh.to_point(h));
+            let (p, q) = (mesh.end(g), mesh.end(h));
             let span = sub(q, p);
             let length = norm(span);
             let off = dist_to_segment(at, p, q);
@@ -81,6 +81,7 @@ pub(super) fn room(
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
 

@@ -52,7 +52,7 @@ pub fn roads<E: Clone>(
         let mut pairs: Vec<(f64, HalfEdgeId, HalfEdgeId)> = Vec::new();
         for (i, &g) in star.iter().enumerate() {
             for &h in &star[i + 1..] {
-                let (d, e) = (sub(mesh.to_point(g), at), sub(mesh.to_point(h), at));
+                let (d, e) = (sub(mesh.end(g), at), sub(mesh.end(h), at));
                 let straight = -dot(d, e) / (norm(d) * norm(e));
                 if straight >= limit {
                     pairs.push((straight, g.min(h), g.max(h)));
@@ -140,6 +140,7 @@ fn chains<E: Clone>(
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
     use crate::mesh::Wire;

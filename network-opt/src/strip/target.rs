@@ -310,6 +310,7 @@ fn sample(line: &[P], count: usize) -> Option<Vec<P>> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
     use crate::mesh::predicates::cross;
