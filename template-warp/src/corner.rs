@@ -220,13 +220,14 @@ impl Stretch<'_> {
             sum += self.turns[j];
             members.push(j);
         }
+        let first = j;
         members.reverse();
         members.push(i);
         let (mut s, mut j) = (0.0, i);
         loop {
             s += self.edges[j];
             j = (j + 1) % n;
-            if s > reach || j == i || !free(j) || members.contains(&j) {
+            if s > reach || j == i || j == first || !free(j) {
                 break;
             }
             sum += self.turns[j];

@@ -329,16 +329,19 @@ impl<'a> Outline<'a> {
                 let (a, b) = (face.points[i], face.points[(i + 1) % n]);
                 let line = self.polyline(a, b, tolerance);
                 match self.rim(a, b) {
-                    Some((k, ..)) => {
+                    Some((k, start, _)) => {
+                        // The line lies on the side, so lengths along it add up.
                         let side = &self.domain.sides[k];
+                        let mut s = start;
                         for e in line.windows(2) {
-                            let s = side.path.nearest((e[0] + e[1]) * 0.5);
+                            let l = dist(e[0], e[1]);
                             let i = side
                                 .path
                                 .along
-                                .partition_point(|&v| v <= s)
+                                .partition_point(|&v| v <= s + 0.5 * l)
                                 .saturating_sub(1);
                             uses.push(side.uses.get(i).copied().unwrap_or(EdgeUse::NoStreet));
+                            s += l;
                         }
                     }
                     None => {

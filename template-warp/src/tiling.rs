@@ -1,7 +1,7 @@
 //! From separate rings to an exact tiling, or a refusal that says why not.
 
 use crate::error::WarpError;
-use crate::geometry::{dot, norm, project, self_contact, signed_area, P};
+use crate::geometry::{norm, project, self_contact, signed_area, P};
 use crate::hierarchy::Piece;
 use crate::region::EdgeUse;
 use std::collections::BTreeMap;
@@ -75,8 +75,6 @@ pub(crate) fn stitch(
     kept.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
 
     let refine = |a: P, b: P| -> Vec<P> {
-        let d = b - a;
-        let l = norm(d);
         let (lo, hi) = (a.x.min(b.x) - near, a.x.max(b.x) + near);
         let start = kept.partition_point(|q| q.x < lo);
         let mut on: Vec<(f64, P)> = kept[start..]
@@ -89,7 +87,6 @@ pub(crate) fn stitch(
             })
             .collect();
         on.sort_by(|x, y| x.0.total_cmp(&y.0));
-        debug_assert!(l > 0.0 && dot(d, d) > 0.0, "edges have length");
         on.into_iter().map(|e| e.1).collect()
     };
     for face in faces.iter_mut() {

@@ -143,6 +143,20 @@ fn every_contradiction_in_a_file_is_named() {
             ("class = \"rigid\"", "class = \"rigid\"\ncorners = [\"q\"]"),
             "`q`",
         ),
+        (
+            (
+                "class = \"rigid\"",
+                "class = \"rigid\"\ncorners = [\"a\", \"b\"]",
+            ),
+            "at least 3",
+        ),
+        (
+            (
+                "class = \"rigid\"",
+                "class = \"rigid\"\n[[template.divide]]\nedges = [[\"a\", \"c\"]]\nlength = 3",
+            ),
+            "no face",
+        ),
         (("class = \"rigid\"", "class = \"rubber\""), "rubber"),
         (
             (

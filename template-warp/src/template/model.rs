@@ -277,6 +277,9 @@ impl Template {
             } else {
                 list(&f.corners)?
             };
+            if child_corners.len() < 3 {
+                return Err(bad(format!("face {k}: `corners` needs at least 3 points")));
+            }
             if child_corners.iter().any(|c| !ring.contains(c)) {
                 return Err(bad(format!(
                     "face {k}: `corners` must be points of the face"
@@ -315,6 +318,18 @@ impl Template {
                 .iter()
                 .map(|e| Ok([find(&e[0])?, find(&e[1])?]))
                 .collect::<Result<Vec<_>, WarpError>>()?;
+            let is_edge = |e: &[usize; 2]| {
+                faces.iter().any(|f: &Face| {
+                    let n = f.points.len();
+                    (0..n).any(|i| {
+                        let (a, b) = (f.points[i], f.points[(i + 1) % n]);
+                        [a, b] == *e || [b, a] == *e
+                    })
+                })
+            };
+            if !edges.iter().all(is_edge) {
+                return Err(bad("a `divide` names an edge that no face has".into()));
+            }
             if !(0.0..=4.0).contains(&d.wide_ends) {
                 return Err(bad(format!("`wide_ends` is {}; give 0 to 4", d.wide_ends)));
             }
