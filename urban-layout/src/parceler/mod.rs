@@ -30,7 +30,7 @@
 //!    path over a grid of places and leans, then polished.
 //! 6. **Repairs** (`weld`, `improve`). The pieces become one mesh; every bad
 //!    parcel is joined with a neighbour, or the pair is cut again, where that
-//!    is cheaper.
+//!    is cheaper. At last, short edges are closed (`tidy`).
 //!
 //! The result is checked before it is returned: simple rings, every inner edge
 //! shared by exactly two pieces, the outline and the area those of the block.
@@ -64,6 +64,7 @@ mod search;
 mod shape;
 #[cfg(test)]
 mod tests;
+mod tidy;
 mod trace;
 mod weld;
 
@@ -174,9 +175,11 @@ pub(crate) fn parcel(block: &Block, options: &ParcelOptions) -> Vec<Piece> {
     let plain = weld::Mesh::new(&shape, &parts, options);
     let mut better = plain.clone();
     improve::improve(&mut better, options, &mut bench);
+    let mut tidied = better.clone();
+    tidy::tidy(&mut tidied, options);
     // What is returned is proved, not hoped: rounding could, in a freak case,
     // let a dividing line graze another.
-    for mut mesh in [better, plain] {
+    for mut mesh in [tidied, better, plain] {
         if mesh.holds(&shape) {
             mesh.settle_kinds(options);
             return mesh.pieces(&block.ring, origin);

@@ -17,7 +17,7 @@ fn c(x: f64, y: f64) -> Coord<f64> {
 fn cases() -> ProptestConfig {
     let long = std::env::var("URBAN_LAYOUT_LONG").is_ok_and(|v| v == "1");
     ProptestConfig {
-        cases: if long { 3000 } else { 48 },
+        cases: if long { 3000 } else { 16 },
         ..ProptestConfig::default()
     }
 }
