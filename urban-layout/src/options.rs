@@ -39,11 +39,14 @@ pub struct ScoreWeights {
     /// Weight of the balance of the two sides, which the paper does not have:
     /// it keeps the split tree shallow and the blocks of a kind. Default 1.5.
     pub balance: f64,
+    /// Weight of the land that a street brings within reach, which the paper
+    /// does not have either. Default 1.
+    pub service: f64,
 }
 
 impl Default for ScoreWeights {
     fn default() -> Self {
-        Self { divergence: 1.0, boundary: 1.0, singularities: 1.0, continuity: 1.0, balance: 1.5 }
+        Self { divergence: 1.0, boundary: 1.0, singularities: 1.0, continuity: 1.0, balance: 1.5, service: 1.0 }
     }
 }
 
@@ -67,6 +70,9 @@ pub struct PlanOptions {
     pub block_length: f64,
     /// Weights of the streamline scores.
     pub weights: ScoreWeights,
+    /// Whether the boundary score shares a misfit out over the rows of parcels
+    /// (default), or measures it in metres as the paper does.
+    pub row_fit: bool,
     /// How freely the streamline is chosen by quality: 0 takes the best, larger
     /// values give more variety. Default 0.06.
     pub temperature: f64,
@@ -93,6 +99,7 @@ impl Default for PlanOptions {
             min_frontage: 3.0,
             block_length: 240.0,
             weights: ScoreWeights::default(),
+            row_fit: true,
             temperature: 0.06,
             optimize: true,
             templates: Vec::new(),

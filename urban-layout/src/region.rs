@@ -36,6 +36,9 @@ pub struct Loop {
     pub vertices: Vec<VertexId>,
     /// Arc length up to each vertex; one more entry, the total.
     pub lengths: Vec<f64>,
+    /// For each edge, whether the region lies on its other side too: a street
+    /// that ends in the open, or that leads to a hole.
+    pub slits: Vec<bool>,
     /// Vertices that a new street's end must keep away from.
     pub nodes: Vec<Node>,
 }
@@ -88,7 +91,8 @@ impl Region {
                 for i in 0..n {
                     lengths.push(lengths[i] + dist(points[i], points[(i + 1) % n]));
                 }
-                let mut out = Loop { half_edges, points, sides, vertices, lengths, nodes: Vec::new() };
+                let slits = half_edges.iter().map(|&h| mesh.face(mesh.twin(h)) == face).collect();
+                let mut out = Loop { half_edges, points, sides, vertices, lengths, slits, nodes: Vec::new() };
                 out.nodes = nodes(network, face, &out);
                 out
             })
@@ -134,6 +138,30 @@ impl Region {
             index -= l.points.len();
         }
         (0, 0)
+    }
+
+    /// Whether a street lies inside, both its sides the region's.
+    #[must_use]
+    pub fn has_slits(&self) -> bool {
+        self.loops.iter().any(|l| l.slits.contains(&true))
+    }
+
+    /// The place of the boundary nearest to `p`, on the side of it that faces
+    /// `towards`.
+    #[must_use]
+    pub fn place_facing(&self, p: Coord<f64>, towards: Coord<f64>) -> Place {
+        let mut best = (f64::INFINITY, Place { ring: 0, edge: 0, at: p });
+        for (ring, l) in self.loops.iter().enumerate() {
+            for edge in 0..l.points.len() {
+                let (a, b) = l.edge(edge);
+                let at = nearest_on(a, b, p).0;
+                let behind = if crate::plane::cross(b - a, towards - at) > 0.0 { 0.0 } else { 1e-6 };
+                if dist(at, p) + behind < best.0 {
+                    best = (dist(at, p) + behind, Place { ring, edge, at });
+                }
+            }
+        }
+        best.1
     }
 
     /// Whether any side gives parcels access.

@@ -187,7 +187,7 @@ proptest! {
             .collect();
         let mut after = before.clone();
         let report = seam(&mut after, tolerance);
-        prop_assert!(report.collapsed.is_empty() && report.pinched.is_empty());
+        prop_assert!(report.collapsed.is_empty() && report.pieces.is_empty());
         for (p, q) in before.iter().zip(&after) {
             for c in &p.exterior().0 {
                 let nearest = q.exterior().0.iter().map(|d| (c.x - d.x).hypot(c.y - d.y)).fold(f64::INFINITY, f64::min);

@@ -6,11 +6,15 @@
 //! edge of a tile has its reverse in exactly one other tile, or lies on the
 //! boundary of their union: tiling becomes a matter of counting.
 
+mod retrace;
+
 use std::collections::BTreeMap;
 
 use geo_types::{Coord, LineString, MultiPolygon, Polygon};
 use rstar::primitives::GeomWithData;
 use rstar::{RTree, AABB};
+
+use retrace::{meets_itself, retraced, Chain};
 
 use super::plane::{dot, lerp, minus, nearest_parameter, open_ring, rings, usable};
 
@@ -19,7 +23,7 @@ use super::plane::{dot, lerp, minus, nearest_parameter, open_ring, rings, usable
 const MAX_ROUNDS: usize = 12;
 
 /// What [`seam`] did, and what it could not mend.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct SeamReport {
     /// Vertices that moved to a neighbour's place.
     pub merged: usize,
@@ -28,13 +32,16 @@ pub struct SeamReport {
     /// Polygons whose exterior has no area left after merging; their polygon is
     /// now empty and should be dropped (their neighbours meet each other).
     pub collapsed: Vec<usize>,
-    /// Holes that closed up and were removed, as (polygon, interior ring).
-    pub closed_holes: Vec<(usize, usize)>,
-    /// Polygons left alone because a coordinate is no number or beyond 1e8 m.
+    /// Holes that closed up or opened to the outside.
+    pub closed_holes: usize,
+    /// Polygons left alone because a coordinate is no number or beyond 1e8 m, or
+    /// because their rings overlap themselves.
     pub unusable: Vec<usize>,
-    /// Rings that now touch themselves at a vertex, as (polygon, ring), ring 0
-    /// being the exterior; such a ring is not valid by OGC's rules.
-    pub pinched: Vec<(usize, usize)>,
+    /// Further pieces of polygons that fell apart, where a strip thinner than
+    /// the tolerance closed: the polygon's number and the piece. The largest
+    /// piece stays in the polygon's place; the others should become tiles of
+    /// their own.
+    pub pieces: Vec<(usize, Polygon<f64>)>,
 }
 
 /// Makes polygons share vertices exactly: [`seam_to`] without fixed vertices.
@@ -104,35 +111,29 @@ pub fn seam_to(
         chains.push(own);
     }
     report.inserted = insert_vertices(&mut chains, &places, tolerance);
-    for (number, (polygon, own)) in polygons.iter_mut().zip(chains).enumerate() {
-        let mut done: Vec<LineString<f64>> = Vec::new();
-        for (ring, chain) in own.into_iter().enumerate() {
-            let chain = without_spikes(chain);
-            if chain.len() < 3 {
-                if ring == 0 {
-                    report.collapsed.push(number);
-                    break;
-                }
-                report.closed_holes.push((number, ring - 1));
-                continue;
-            }
-            let mut seen = chain.clone();
-            seen.sort_unstable();
-            if seen.windows(2).any(|w| w[0] == w[1]) {
-                report.pinched.push((number, ring));
-            }
-            done.push(
-                chain
-                    .iter()
-                    .chain(chain.first())
-                    .map(|&i| places[i])
-                    .collect(),
-            );
+    for (number, own) in chains.into_iter().enumerate() {
+        let mut own: Vec<Chain> = own.into_iter().map(without_spikes).collect();
+        let before = own.len();
+        let exterior_left = own[0].len() > 2;
+        own.retain(|chain| chain.len() > 2);
+        let mut done = match (exterior_left, meets_itself(&own)) {
+            (false, _) => Vec::new(),
+            (true, false) => vec![own],
+            (true, true) => retraced(&own, &places).unwrap_or_else(|| {
+                report.unusable.push(number);
+                vec![own]
+            }),
+        };
+        if done.is_empty() {
+            report.collapsed.push(number);
+        } else {
+            report.closed_holes += before.saturating_sub(done.iter().map(Vec::len).sum());
         }
-        let mut done = done.into_iter();
-        let exterior = done.next().unwrap_or_else(|| LineString::new(Vec::new()));
-        *polygon = Polygon::new(exterior, done.collect());
+        let mut done = done.drain(..).map(|rings| drawn(&rings, &places));
+        polygons[number] = done.next().unwrap_or_else(nothing);
+        report.pieces.extend(done.map(|piece| (number, piece)));
     }
+    report.unusable.sort_unstable();
     report
         .collapsed
         .retain(|i| report.unusable.binary_search(i).is_err());
@@ -140,6 +141,19 @@ pub fn seam_to(
         polygons[number] = polygon;
     }
     report
+}
+
+/// A polygon of rings of places.
+fn drawn(rings: &[Chain], places: &[Coord<f64>]) -> Polygon<f64> {
+    let mut rings = rings.iter().map(|chain| -> LineString<f64> {
+        chain
+            .iter()
+            .chain(chain.first())
+            .map(|&i| places[i])
+            .collect()
+    });
+    let exterior = rings.next().unwrap_or_else(|| LineString::new(Vec::new()));
+    Polygon::new(exterior, rings.collect())
 }
 
 /// A polygon without vertices.
@@ -335,7 +349,7 @@ mod tests {
         let report = seam(&mut tiles, 1e-4);
         assert_eq!((report.inserted, report.merged), (1, 1));
         assert_eq!(tiles[0].exterior().0.len(), 6);
-        assert!(report.collapsed.is_empty() && report.pinched.is_empty());
+        assert!(report.collapsed.is_empty() && report.pieces.is_empty());
     }
 
     #[test]
@@ -367,11 +381,37 @@ mod tests {
     }
 
     #[test]
-    fn a_ring_that_meets_itself_is_reported() {
-        let mut tiles = [
-            polygon![(x: 0., y: 0.), (x: 4., y: 0.), (x: 2.0, y: 2.0), (x: 4., y: 4.), (x: 0., y: 4.), (x: 1.99999, y: 2.0)],
-        ];
+    fn a_ring_that_meets_itself_is_parted() {
+        let mut tiles = [polygon![
+            (x: 0., y: 0.), (x: 4., y: 0.), (x: 2.00001, y: 2.0),
+            (x: 4., y: 5.), (x: 0., y: 5.), (x: 1.99999, y: 2.0)
+        ]];
         let report = seam(&mut tiles, 1e-4);
-        assert_eq!(report.pinched, vec![(0, 0)]);
+        assert_eq!(report.pieces.len(), 1);
+        assert_eq!(
+            (report.pieces[0].0, report.pieces[0].1.exterior().0.len()),
+            (0, 4)
+        );
+        assert_eq!(tiles[0].exterior().0.len(), 4);
+    }
+
+    #[test]
+    fn a_hair_of_street_along_the_site_closes() {
+        // Street area around a block that comes within a hair of the site's edge.
+        let block = [(3., 1e-6), (7., -1e-6), (7., 6.), (3., 6.)];
+        let ring = |points: &[(f64, f64)]| {
+            points
+                .iter()
+                .map(|&(x, y)| Coord { x, y })
+                .collect::<LineString<f64>>()
+        };
+        let mut hole = ring(&block);
+        hole.0.reverse();
+        let street = Polygon::new(ring(&[(0., 0.), (9., 0.), (9., 9.), (0., 9.)]), vec![hole]);
+        let mut tiles = [street, Polygon::new(ring(&block), vec![])];
+        let report = seam(&mut tiles, 1e-4);
+        assert!(tiles[0].interiors().is_empty() && report.pieces.is_empty());
+        assert_eq!(report.closed_holes, 1);
+        assert_eq!(crate::check::polygon_fault(&tiles[0]), None);
     }
 }

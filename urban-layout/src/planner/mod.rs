@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 
+use geo_types::Coord;
 use network_opt::{End, FaceId};
 
 use crate::error::{Error, Result};
@@ -220,7 +221,10 @@ pub(crate) fn apply(
         };
         let face = parts[slot];
         let region = tree.region(face, &p.path, options.seed);
-        let (Some(from), Some(to)) = (end(tree, &region, &cut.from, options), end(tree, &region, &cut.to, options)) else {
+        let first = cut.path.first().copied().unwrap_or(cut.to.at);
+        let last = cut.path.last().copied().unwrap_or(cut.from.at);
+        let ends = (end(tree, &region, &cut.from, first, options), end(tree, &region, &cut.to, last, options));
+        let (Some(from), Some(to)) = ends else {
             continue;
         };
         let class = if cuts.len() == 1 && p.path.depth() < 2 && region.area > 250_000.0 {
@@ -251,16 +255,13 @@ pub(crate) fn apply(
 
 /// Where a cut's end lies on the region's boundary now; `None` if a junction
 /// has come too close since the cut was proposed.
-fn end(tree: &Tree, region: &Region, place: &Place, options: &PlanOptions) -> Option<End> {
-    let (mut best, mut found) = (1e-3, None);
-    for l in &region.loops {
-        let (position, edge, at) = l.nearest(place.at);
-        if dist(at, place.at) < best {
-            best = dist(at, place.at);
-            found = Some((l, position, edge, at));
-        }
+fn end(tree: &Tree, region: &Region, place: &Place, towards: Coord<f64>, options: &PlanOptions) -> Option<End> {
+    let Place { ring, edge, at } = region.place_facing(place.at, towards);
+    if dist(at, place.at) > 1e-3 {
+        return None;
     }
-    let (l, position, edge, at) = found?;
+    let l = &region.loops[ring];
+    let position = l.position(edge, at);
     let (a, b) = l.edge(edge);
     let vertex = if dist(a, at) < 1e-3 {
         Some(l.vertices[edge])

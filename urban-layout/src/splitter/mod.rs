@@ -13,6 +13,7 @@ use crate::region::{Place, Region};
 
 mod cut;
 mod park;
+mod rows;
 mod parcels;
 mod service;
 mod streamlines;

@@ -20,11 +20,11 @@ pub(crate) struct Service {
 }
 
 /// Deepest acceptable parcel over the ideal one.
-const DEEPEST: f64 = 1.5;
+const DEEPEST: f64 = 1.4;
 /// Land that may stay unserved before a street is worth its cost: this share
 /// of the region, and at least so many square metres.
 const TOLERATED_SHARE: f64 = 0.03;
-const TOLERATED_AREA: f64 = 600.0;
+const TOLERATED_AREA: f64 = 400.0;
 
 impl Service {
     pub(crate) fn of(region: &Region, options: &PlanOptions) -> Self {

@@ -10,10 +10,13 @@ use streamline::{
 
 use crate::adapt::Arms;
 use crate::layout::Lineage;
-use crate::network::SideKind;
+use crate::network::{Network, SideKind};
 use crate::options::{FieldKind, PlanOptions};
-use crate::plane::{cross, dist};
+use crate::assemble::polygon_of;
+use crate::inset::{clean_ring, difference};
+use crate::plane::{at, cross, dist, left, signed_area, unit};
 use crate::region::{Place, Region};
+use crate::splitter::rows::RowFit;
 use crate::splitter::{Action, Cut, CutMaker, Path2, Proposal, Scene, Service, Splitter};
 
 /// Splits a region along one or several streamlines of a cross field.
@@ -24,6 +27,8 @@ pub struct StreamlineSplitter;
 const OFFERED: usize = 6;
 /// Candidates tried before a region counts as one that no street fits.
 const TRIED: usize = 400;
+/// Half the width of the gap opened along a street inside a region, metres.
+const GAP: f64 = 0.25;
 /// Longest boundary distance that the width table knows, metres.
 const TABLE_REACH: f64 = 400.0;
 
@@ -45,29 +50,56 @@ impl Splitter for StreamlineSplitter {
 /// The cross field of a region, `None` where the region cannot be meshed.
 fn field(region: &Region, options: &PlanOptions) -> Option<Field> {
     let edge_length = (region.area.sqrt() / 28.0).clamp(5.0, 25.0);
-    let domain = Domain::new(&region.polygon(), &DomainOptions { edge_length, ..DomainOptions::default() }).ok()?;
+    let rings = open_rings(region)?;
+    let domain = Domain::new(&polygon_of(&rings), &DomainOptions { edge_length, ..DomainOptions::default() }).ok()?;
     match options.field {
         FieldKind::Distance => {
-            DistanceField { weights: weights(region), ..DistanceField::default() }.design(&domain).ok()
+            DistanceField { weights: weights(&rings), ..DistanceField::default() }.design(&domain).ok()
         }
         FieldKind::Boundary => BoundaryField::default().design(&domain).ok(),
         FieldKind::Harmonic => HarmonicField::default().design(&domain).ok(),
     }
 }
 
+/// The region's rings, with the streets that end in the open or lead to a hole
+/// (whose two sides are both the region's) opened to a narrow gap: a mesh needs
+/// simple rings.
+fn open_rings(region: &Region) -> Option<Vec<Vec<Coord<f64>>>> {
+    if !region.has_slits() {
+        return Some(region.loops.iter().map(|l| l.points.clone()).collect());
+    }
+    let mut gaps = Vec::new();
+    for l in &region.loops {
+        for (i, _) in l.slits.iter().enumerate().filter(|(_, &slit)| slit) {
+            let (a, b) = l.edge(i);
+            let (along, across) = (unit(b - a) * GAP, left(unit(b - a)) * GAP);
+            gaps.push([a - along - across, b + along - across, b + along + across, a - along + across].map(|p| [p.x, p.y]).to_vec());
+        }
+    }
+    let subject: Vec<Vec<[f64; 2]>> = region.loops.iter().map(|l| l.points.iter().map(|p| [p.x, p.y]).collect()).collect();
+    let shapes = difference(&[subject], &gaps);
+    let rings_of = |shape: &Vec<Vec<[f64; 2]>>| -> Vec<Vec<Coord<f64>>> {
+        shape.iter().map(|r| clean_ring(&r.iter().map(|p| at(p[0], p[1])).collect::<Vec<_>>())).filter(|r| r.len() >= 3).collect()
+    };
+    shapes.iter().map(rings_of).max_by(|a, b| {
+        let area = |rings: &Vec<Vec<Coord<f64>>>| rings.iter().map(|r| signed_area(r)).sum::<f64>();
+        area(a).total_cmp(&area(b))
+    })
+}
+
 /// Influence of each edge on the D-field: a long smooth side decides about
 /// more land than a jog of the boundary (the supplement's weights, section
 /// 4.1, which it leaves to the user).
-fn weights(region: &Region) -> Vec<Vec<f64>> {
-    region
-        .loops
+fn weights(rings: &[Vec<Coord<f64>>]) -> Vec<Vec<f64>> {
+    let edge = |ring: &[Coord<f64>], i: usize| (ring[i], ring[(i + 1) % ring.len()]);
+    rings
         .iter()
-        .map(|l| {
-            let n = l.points.len();
+        .map(|ring| {
+            let n = ring.len();
             let corner: Vec<bool> = (0..n)
                 .map(|i| {
-                    let (a, b) = l.edge((i + n - 1) % n);
-                    crate::plane::turn(b - a, l.edge(i).1 - b).abs() > 30f64.to_radians()
+                    let (a, b) = edge(ring, (i + n - 1) % n);
+                    crate::plane::turn(b - a, edge(ring, i).1 - b).abs() > 30f64.to_radians()
                 })
                 .collect();
             let mut out = vec![1.0; n];
@@ -80,7 +112,7 @@ fn weights(region: &Region) -> Vec<Vec<f64>> {
                     run.push((start + k) % n);
                     k += 1;
                 }
-                let length: f64 = run.iter().map(|&i| dist(l.edge(i).0, l.edge(i).1)).sum();
+                let length: f64 = run.iter().map(|&i| dist(edge(ring, i).0, edge(ring, i).1)).sum();
                 for i in run {
                     out[i] = (length / 90.0).sqrt().clamp(0.35, 1.0);
                 }
@@ -93,16 +125,18 @@ fn weights(region: &Region) -> Vec<Vec<f64>> {
 fn propose_from(scene: &Scene<'_>, region: &Region, service: &Service, field: &Field) -> Vec<Proposal> {
     let options = scene.options;
     let arms = Arms(field);
-    let lines = trace_candidates(region, options, field, &arms);
+    let lines = trace_candidates(scene.network, region, options, field, &arms);
     if lines.is_empty() {
         return Vec::new();
     }
-    let paths: Vec<Option<Path2>> = lines.iter().map(to_path).collect();
+    let paths: Vec<Option<Path2>> = lines.iter().map(|line| to_path(region, line)).collect();
     let measures = Measures::new(scene, region, service, field, &lines, &paths);
     let w = &options.weights;
+    let (grid, sides) = region.grid();
+    let rows = RowFit::new(&grid, &sides, options);
     let scores: Vec<(&dyn Score, f64)> = vec![
         (&measures.divergence, w.divergence),
-        (&measures.boundary, w.boundary),
+        if options.row_fit { (&rows, w.boundary) } else { (&measures.boundary, w.boundary) },
         (&measures.singularities, w.singularities),
         (&measures.continuity, w.continuity),
     ];
@@ -110,10 +144,12 @@ fn propose_from(scene: &Scene<'_>, region: &Region, service: &Service, field: &F
     // The planner's own terms, on top of the paper's four.
     let mut order: Vec<(f64, usize, [f64; 4])> = ranked
         .iter()
-        .filter(|r| paths[r.index].is_some())
+        .filter(|r| paths[r.index].as_ref().is_some_and(|p| isolation(region, p, options).is_finite()))
         .map(|r| {
             let parts = [r.parts[0], r.parts[1], r.parts[2], r.parts[3]];
-            (r.total + w.balance * measures.balance[r.index] + measures.service[r.index], r.index, parts)
+            let alone = paths[r.index].as_ref().map_or(0.0, |p| isolation(region, p, options));
+            let own = w.balance * measures.balance[r.index] + w.service * measures.service[r.index];
+            (r.total + own + alone, r.index, parts)
         })
         .collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -146,7 +182,13 @@ fn propose_from(scene: &Scene<'_>, region: &Region, service: &Service, field: &F
 }
 
 /// Candidate streamlines from all inner vertices in both orientations.
-fn trace_candidates(region: &Region, options: &PlanOptions, field: &Field, arms: &Arms<'_>) -> Vec<Streamline> {
+fn trace_candidates(
+    network: &Network,
+    region: &Region,
+    options: &PlanOptions,
+    field: &Field,
+    arms: &Arms<'_>,
+) -> Vec<Streamline> {
     let domain = field.domain();
     let vertices = domain.vertices();
     let seeds: Vec<Seed> = domain
@@ -162,18 +204,44 @@ fn trace_candidates(region: &Region, options: &PlanOptions, field: &Field, arms:
     // anywhere within a block's depth.
     let separation = (0.3 * options.parcel_length).max(region.area.sqrt() / 70.0);
     let trace = TraceOptions { step: 8.0, max_length: 4.0 * region.perimeter(), ..TraceOptions::default() };
+    let mut lines: Vec<Streamline> = invitations(network, region)
+        .into_iter()
+        .filter_map(|(at, inward)| streamline::trace(arms, at + inward * 2.0, inward, &trace).ok())
+        .collect();
     let options = CandidateOptions { separation, seed: region.seed, trace, ..CandidateOptions::default() };
-    candidates(arms, &seeds, &options).unwrap_or_default()
+    lines.extend(candidates(arms, &seeds, &options).unwrap_or_default());
+    lines
+}
+
+/// Where a street waits to be continued into the region, and its direction:
+/// T-junctions across a street, and mouths of streets outside.
+fn invitations(network: &Network, region: &Region) -> Vec<(Coord<f64>, Coord<f64>)> {
+    let junctions = region.loops.iter().flat_map(|l| l.nodes.iter().filter_map(|n| n.continues.map(|d| (n.at, d))));
+    let mouths = network.entries.iter().filter(|e| {
+        region.loops.iter().any(|l| dist(l.nearest(e.at).2, e.at) < 0.01)
+    });
+    junctions.chain(mouths.map(|e| (e.at, e.inward))).collect()
 }
 
 /// A streamline that ends at the boundary on both sides, as a path.
-fn to_path(line: &Streamline) -> Option<Path2> {
-    let place = |stop: Stop, at: Coord<f64>| match stop {
+fn to_path(region: &Region, line: &Streamline) -> Option<Path2> {
+    let n = line.points.len();
+    if n < 2 {
+        return None;
+    }
+    let slits = region.has_slits();
+    let place = |stop: Stop, at: Coord<f64>, towards: Coord<f64>| match stop {
+        // Where a gap was opened, the mesh's edges are not the region's.
+        Stop::Boundary { .. } if slits => Some(region.place_facing(at, towards)),
         Stop::Boundary { ring, edge } => Some(Place { ring, edge, at }),
         _ => None,
     };
-    let (first, last) = (*line.points.first()?, *line.points.last()?);
-    Some(Path2 { from: place(line.start, first)?, to: place(line.end, last)?, points: line.points.clone() })
+    let from = place(line.start, line.points[0], line.points[1])?;
+    let to = place(line.end, line.points[n - 1], line.points[n - 2])?;
+    let mut points = line.points.clone();
+    points[0] = from.at;
+    points[n - 1] = to.at;
+    Some(Path2 { from, to, points })
 }
 
 /// Everything that ranks a region's candidates.
@@ -306,7 +374,21 @@ fn alike(a: &Cut, b: &Cut) -> bool {
     (near(a.from.at, b.from.at) && near(a.to.at, b.to.at)) || (near(a.from.at, b.to.at) && near(a.to.at, b.from.at))
 }
 
+/// What it costs that a street would touch no other: once there are streets,
+/// a new one should be reached from them.
+fn isolation(region: &Region, path: &Path2, options: &PlanOptions) -> f64 {
+    let joined = on_street(region, &path.from) || on_street(region, &path.to);
+    let first = !region.edges().any(|(_, _, side)| side.kind == SideKind::Street);
+    if joined || first {
+        0.0
+    } else if region.area > 4.0 * options.block_length * options.block_length {
+        0.5
+    } else {
+        f64::INFINITY
+    }
+}
+
 /// Whether a place lies on a street.
-pub(crate) fn on_street(region: &Region, place: &Place) -> bool {
+fn on_street(region: &Region, place: &Place) -> bool {
     region.loops[place.ring].sides[place.edge].kind == SideKind::Street
 }

@@ -412,7 +412,7 @@ mod tests {
         assert_eq!(round_below(437.0), 400.0);
         assert_eq!(round_below(187.0), 150.0);
         assert_eq!(round_below(1000.0), 1000.0);
-        assert_eq!(round_below(0.07), 0.05);
+        assert_eq!(round_below(0.07), 0.06);
         assert_eq!(round_below(f64::NAN), 1.0);
     }
 }

@@ -19,6 +19,8 @@ use crate::site::{ElementKind, RoadClass, Site};
 use crate::splitter::FaceUse;
 use i_overlay::core::overlay_rule::OverlayRule;
 
+pub(crate) mod outline;
+
 /// Vertices closer than this become one, metres.
 const SEAM: f64 = 2e-4;
 /// Street land in pieces smaller than this goes to a neighbour by the seam, square metres.
@@ -59,8 +61,8 @@ pub(crate) fn assemble(tree: &Tree, site: &Site, seed: u64, street_width: f64, m
         block_of(&mut layout, &mut ids, &mut built, leaf, &region);
     }
     elements(&mut layout, &mut ids, &mut built, site);
-    street_area(&mut layout, &mut ids, &built, site);
-    sew(&mut layout);
+    street_area(&mut layout, &built, site);
+    sew(&mut layout, &mut ids);
     streets(&mut layout, &mut ids, &network, &spurs, street_width);
     measure(&mut layout, site, min_frontage);
     layout
@@ -151,12 +153,12 @@ fn elements(layout: &mut Layout, ids: &mut Ids, built: &mut Shapes, site: &Site)
 }
 
 /// What is neither built on nor given is street.
-fn street_area(layout: &mut Layout, ids: &mut Ids, built: &Shapes, site: &Site) {
+fn street_area(layout: &mut Layout, built: &Shapes, site: &Site) {
     let subject: Shapes = site.parts.iter().map(shape_of).collect();
     // Parcels first become whole blocks, so that no hair is left between two.
     let clip: Vec<Vec<[f64; 2]>> =
         boolean(built, &[], OverlayRule::Subject).into_iter().flatten().collect();
-    for (k, shape) in difference(&subject, &clip).into_iter().enumerate() {
+    for shape in difference(&subject, &clip) {
         let rings: Vec<Vec<Coord<f64>>> = shape
             .iter()
             .map(|r| clean_ring(&r.iter().map(|p| at(p[0], p[1])).collect::<Vec<_>>()))
@@ -165,20 +167,12 @@ fn street_area(layout: &mut Layout, ids: &mut Ids, built: &Shapes, site: &Site) 
         if rings.is_empty() || rings.iter().map(|r| signed_area(r)).sum::<f64>() < CRUMB {
             continue;
         }
-        layout.tiles.push(Tile {
-            id: ids.next(mix(0x57ee7), k),
-            kind: TileKind::StreetArea,
-            polygon: polygon_of(&rings),
-            label: None,
-            parcel: None,
-            lineage: None,
-            given: false,
-        });
+        layout.tiles.push(street_tile(polygon_of(&rings)));
     }
 }
 
 /// Makes neighbouring tiles share vertices; drops what has no area.
-fn sew(layout: &mut Layout) {
+fn sew(layout: &mut Layout, ids: &mut Ids) {
     let mut polygons: Vec<Polygon<f64>> = layout.tiles.iter().map(|t| t.polygon.clone()).collect();
     let report = seam_to(&mut polygons, &layout.site, SEAM);
     let gone: BTreeSet<usize> = report.collapsed.into_iter().collect();
@@ -190,6 +184,17 @@ fn sew(layout: &mut Layout) {
         .filter(|(i, _)| !gone.contains(i))
         .map(|(_, (tile, polygon))| Tile { polygon, ..tile })
         .collect();
+    // The streets' land once more, now that it shares its vertices.
+    let (paved, mut tiles): (Vec<Tile>, Vec<Tile>) =
+        std::mem::take(&mut layout.tiles).into_iter().partition(|t| t.kind == TileKind::StreetArea);
+    for (k, polygon) in outline::without_hairs(paved.iter().map(|t| &t.polygon)).into_iter().enumerate() {
+        tiles.push(Tile { id: ids.next(mix(0x57ee7), k), ..street_tile(polygon) });
+    }
+    layout.tiles = tiles;
+}
+
+fn street_tile(polygon: Polygon<f64>) -> Tile {
+    Tile { id: 0, kind: TileKind::StreetArea, polygon, label: None, parcel: None, lineage: None, given: false }
 }
 
 /// Joins the streets inside blocks to the centrelines of the network.

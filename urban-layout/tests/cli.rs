@@ -1,0 +1,319 @@
+//! The command as a user meets it: exit statuses, files written whole or not at
+//! all, figures as JSON.
+#![cfg(feature = "cli")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// A field of 3.6 hectares: a plan of it takes a moment.
+const FIELD: &str = r#"{"type": "FeatureCollection", "coordinate_units": "metres", "features": [
+{"type": "Feature", "properties": {"kind": "site", "name": "Field"}, "geometry":
+{"type": "Polygon", "coordinates": [[[0, 0], [240, 0], [240, 150], [0, 150], [0, 0]]]}}]}"#;
+
+/// A ring that crosses itself.
+const BOW_TIE: &str = r#"{"type": "FeatureCollection", "coordinate_units": "metres", "features": [
+{"type": "Feature", "properties": {"kind": "site"}, "geometry":
+{"type": "Polygon", "coordinates": [[[0, 0], [240, 150], [240, 0], [0, 150], [0, 0]]]}}]}"#;
+
+/// A folder of one's own with a site in it.
+struct Bench {
+    folder: TempDir,
+}
+
+impl Bench {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let bench = Self { folder };
+        std::fs::write(bench.path("site.geojson"), FIELD).expect("written");
+        bench
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// Runs the command in the folder.
+    fn run(&self, words: &[&str]) -> Output {
+        Command::new(env!("CARGO_BIN_EXE_urban-layout"))
+            .current_dir(self.folder.path())
+            .args(words)
+            .output()
+            .expect("the command starts")
+    }
+
+    /// Runs the command, expecting an exit status; gives its standard output.
+    #[track_caller]
+    fn expect(&self, status: i32, words: &[&str]) -> String {
+        let output = self.run(words);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(status), "{words:?}: {said}");
+        String::from_utf8(output.stdout).expect("UTF-8")
+    }
+
+    /// The one line on standard error of a run that ends with this status.
+    #[track_caller]
+    fn complaint(&self, status: i32, words: &[&str]) -> String {
+        let output = self.run(words);
+        let said = String::from_utf8(output.stderr).expect("UTF-8");
+        assert_eq!(output.status.code(), Some(status), "{words:?}: {said}");
+        assert!(output.stdout.is_empty(), "nothing goes to stdout");
+        assert_eq!(said.lines().count(), 1, "one line: {said}");
+        said
+    }
+}
+
+/// Every file below a folder with its bytes, sorted.
+fn files(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let mut out = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).expect("a folder") {
+            let path = entry.expect("readable").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                let bytes = std::fs::read(&path).expect("readable");
+                out.push((path, bytes));
+            }
+        }
+    }
+    out.sort();
+    out
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let name = |(path, _): &(PathBuf, Vec<u8>)| {
+        let below = path.strip_prefix(folder).expect("below the folder");
+        below.to_string_lossy().replace('\\', "/")
+    };
+    files(folder).iter().map(name).collect()
+}
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or_else(|e| panic!("{e}: {text}"))
+}
+
+#[test]
+fn a_plan_is_written_and_certified() {
+    let bench = Bench::new();
+    let said = bench.expect(0, &["generate", "site.geojson", "--out", "plan"]);
+    assert!(said.contains("parcels"), "{said}");
+    assert_eq!(
+        names(&bench.path("plan")),
+        ["layout.geojson", "layout.svg", "metrics.json"]
+    );
+    let said = bench.expect(0, &["check", "site.geojson", "plan/layout.geojson"]);
+    assert!(said.lines().count() > 15 && !said.contains("FAILED"));
+}
+
+#[test]
+#[cfg(feature = "png")]
+fn a_picture_comes_with_png() {
+    let bench = Bench::new();
+    bench.expect(0, &["generate", "site.geojson", "--out", "plan", "--png"]);
+    let bytes = std::fs::read(bench.path("plan/layout.png")).expect("a picture");
+    assert!(bytes.starts_with(b"\x89PNG\r\n\x1a\n") && bytes.len() > 10_000);
+}
+
+#[test]
+fn the_same_seed_gives_the_same_bytes() {
+    let bench = Bench::new();
+    for (folder, threads) in [("one", "1"), ("two", "2")] {
+        let words = ["generate", "site.geojson", "--seed", "7"];
+        bench.expect(
+            0,
+            &[&words[..], &["--out", folder, "--threads", threads]].concat(),
+        );
+    }
+    for name in ["layout.geojson", "layout.svg"] {
+        let bytes = |folder| std::fs::read(bench.path(folder).join(name)).expect("written");
+        assert!(bytes("one") == bytes("two"), "{name}");
+    }
+}
+
+#[test]
+fn figures_are_one_json_object() {
+    let bench = Bench::new();
+    let words = ["generate", "site.geojson", "--out", "plan", "--json"];
+    let figures = json(&bench.expect(0, &words));
+    assert!(figures["parcels"].as_u64().is_some_and(|n| n > 10));
+    assert!(figures["seconds"]["total"]
+        .as_f64()
+        .is_some_and(|s| s > 0.0));
+    let written = std::fs::read_to_string(bench.path("plan/metrics.json")).expect("written");
+    assert_eq!(json(&written), figures);
+
+    let words = ["check", "site.geojson", "plan/layout.geojson", "--json"];
+    let certificate = json(&bench.expect(0, &words));
+    assert_eq!(certificate["ok"], true);
+    assert!(certificate["laws"].as_array().is_some_and(|l| l.len() > 15));
+}
+
+#[test]
+fn variations_have_a_folder_each_and_a_page() {
+    let bench = Bench::new();
+    let words = ["generate", "site.geojson", "--out", "plans"];
+    let figures = bench.expect(0, &[&words[..], &["--variations", "2", "--json"]].concat());
+    let list = json(&figures)["variations"].clone();
+    let seeds: Vec<_> = list.as_array().expect("a list").iter().collect();
+    assert_eq!(seeds.len(), 2);
+    assert_eq!(
+        (&seeds[0]["seed"], &seeds[1]["seed"]),
+        (&0.into(), &1.into())
+    );
+    assert_eq!(
+        names(&bench.path("plans")),
+        [
+            "001/layout.geojson",
+            "001/layout.svg",
+            "001/metrics.json",
+            "002/layout.geojson",
+            "002/layout.svg",
+            "002/metrics.json",
+            "index.html"
+        ]
+    );
+    let page = std::fs::read_to_string(bench.path("plans/index.html")).expect("a page");
+    for picture in ["001/layout.svg", "002/layout.svg"] {
+        assert!(page.contains(picture), "{picture}");
+    }
+}
+
+#[test]
+fn wrong_input_is_status_1_and_one_line() {
+    let bench = Bench::new();
+    let complaint = bench.complaint(1, &["generate", "nowhere.geojson", "--out", "plan"]);
+    assert!(complaint.contains("nowhere.geojson"), "{complaint}");
+
+    for (text, word) in [
+        (BOW_TIE, "cross"),
+        (&FIELD[..150], "JSON"),
+        ("", "JSON"),
+        ("{}", "GeoJSON"),
+        (
+            &FIELD.replace(r#""coordinate_units": "metres","#, ""),
+            "metres",
+        ),
+    ] {
+        std::fs::write(bench.path("bad.geojson"), text).expect("written");
+        let complaint = bench.complaint(1, &["generate", "bad.geojson", "--out", "plan"]);
+        assert!(complaint.contains(word), "{word}: {complaint}");
+    }
+    assert!(!bench.path("plan").exists(), "nothing may be written");
+
+    // A layout that is none, and one that is not there.
+    for layout in ["site.geojson.bak", "bad.geojson"] {
+        bench.complaint(1, &["check", "site.geojson", layout]);
+    }
+}
+
+#[test]
+fn bytes_that_are_no_text_are_wrong_input() {
+    let bench = Bench::new();
+    std::fs::write(bench.path("bad.geojson"), [0xff, 0xfe, 0x00, 0x80]).expect("written");
+    let complaint = bench.complaint(1, &["generate", "bad.geojson", "--out", "plan"]);
+    assert!(complaint.contains("UTF-8"), "{complaint}");
+}
+
+#[test]
+fn earlier_outputs_survive_a_failed_run() {
+    let bench = Bench::new();
+    bench.expect(0, &["generate", "site.geojson", "--out", "plan"]);
+    let before = files(&bench.path("plan"));
+
+    std::fs::write(bench.path("bad.geojson"), BOW_TIE).expect("written");
+    bench.expect(1, &["generate", "bad.geojson", "--out", "plan"]);
+    let words = ["generate", "site.geojson", "--out", "plan"];
+    bench.expect(2, &[&words[..], &["--parcel-width=-3"]].concat());
+    bench.expect(2, &[&words[..], &["--templates", "no-such"]].concat());
+    assert!(files(&bench.path("plan")) == before, "changed");
+}
+
+/// One file that cannot be replaced keeps all others as they were.
+#[test]
+fn outputs_are_replaced_all_or_none() {
+    let bench = Bench::new();
+    std::fs::create_dir_all(bench.path("plan/layout.svg")).expect("a folder in the way");
+    std::fs::write(bench.path("plan/metrics.json"), "earlier").expect("written");
+    let complaint = bench.complaint(1, &["generate", "site.geojson", "--out", "plan"]);
+    assert!(complaint.contains("layout.svg"), "{complaint}");
+    assert_eq!(names(&bench.path("plan")), ["metrics.json"]);
+    let kept = std::fs::read_to_string(bench.path("plan/metrics.json")).expect("readable");
+    assert_eq!(kept, "earlier");
+}
+
+#[test]
+fn wrong_usage_is_status_2() {
+    let bench = Bench::new();
+    let generate = ["generate", "site.geojson", "--out", "plan"];
+    for more in [
+        &["--no-such-option"][..],
+        &["--seed", "minus one"],
+        &["--field", "magnetic"],
+        &["--variations", "0"],
+        &["--parcel-width", "0"],
+        &["--parcel-length", "nan"],
+        &["--street-width", "1e9"],
+        &["--temperature=-1"],
+        &["--templates", "no-such-template"],
+        &["--units", "feet"],
+    ] {
+        bench.expect(2, &[&generate[..], more].concat());
+    }
+    bench.expect(2, &[]);
+    bench.expect(2, &["demolish", "site.geojson"]);
+    bench.expect(2, &["generate", "site.geojson"]);
+    bench.expect(2, &["check", "site.geojson"]);
+    assert!(!bench.path("plan").exists(), "nothing may be written");
+}
+
+/// What this release cannot do is refused, not replaced by something else.
+#[test]
+fn a_field_that_is_not_there_yet_is_refused() {
+    let bench = Bench::new();
+    let words = ["generate", "site.geojson", "--out", "plan"];
+    let output = bench.run(&[&words[..], &["--field", "harmonic"]].concat());
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("harmonic"), "{said}");
+    assert!(!bench.path("plan").exists(), "nothing may be written");
+}
+
+#[test]
+fn a_layout_that_breaks_a_law_is_status_3() {
+    let bench = Bench::new();
+    bench.expect(0, &["generate", "site.geojson", "--out", "plan"]);
+    let text = std::fs::read_to_string(bench.path("plan/layout.geojson")).expect("readable");
+    let mut layout = json(&text);
+    let features = layout["features"].as_array_mut().expect("features");
+    let parcel = features
+        .iter()
+        .position(|f| f["properties"]["kind"] == "parcel")
+        .expect("a parcel");
+    features.remove(parcel);
+    std::fs::write(bench.path("holed.geojson"), layout.to_string()).expect("written");
+
+    let said = bench.expect(3, &["check", "site.geojson", "holed.geojson"]);
+    assert!(said.lines().any(|l| l.starts_with("FAILED gap")), "{said}");
+    let words = ["check", "site.geojson", "holed.geojson", "--json"];
+    let certificate = json(&bench.expect(3, &words));
+    assert_eq!(certificate["ok"], false);
+}
+
+#[test]
+fn help_and_version_are_no_errors() {
+    let bench = Bench::new();
+    for words in [
+        &["--help"][..],
+        &["generate", "--help"],
+        &["check", "--help"],
+    ] {
+        assert!(bench.expect(0, words).contains("Usage"), "{words:?}");
+    }
+    assert!(bench
+        .expect(0, &["--version"])
+        .contains(env!("CARGO_PKG_VERSION")));
+}
