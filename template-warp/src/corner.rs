@@ -9,6 +9,10 @@
 
 use crate::geometry::{dist, turn, P};
 
+/// Turn, radians, below which a vertex cannot start a corner: it lies on a
+/// straight side.
+const FLAT: f64 = 1e-6;
+
 /// Parameters of corner detection.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CornerOptions {
@@ -51,7 +55,8 @@ pub struct Corner {
 ///
 /// # Complexity
 ///
-/// O(n) for n vertices with bounded density.
+/// O(n log n) for n vertices; where the boundary turns, times the number of
+/// vertices within the span.
 #[must_use]
 pub fn corners(ring: &[P], options: &CornerOptions) -> Vec<Corner> {
     let n = ring.len();
@@ -80,18 +85,20 @@ pub fn corners(ring: &[P], options: &CornerOptions) -> Vec<Corner> {
     // Sharpest vertex first: it gathers the turns around it. The wider sums
     // decide among the vertices of an arc for the one in its middle.
     let mut order: Vec<usize> = (0..n).collect();
+    let sums = Sums::new(&turns, &edges);
     let scores: Vec<f64> = (0..n)
         .map(|i| {
-            let (near, wide) = (
-                stretch.sum(i, 0.5 * span, &taken).0,
-                stretch.sum(i, 1.5 * span, &taken).0,
-            );
+            let (near, wide) = (sums.signed(i, 0.5 * span), sums.signed(i, 1.5 * span));
             near.abs() + 0.5 * turns[i].abs() + 0.2 * wide.abs()
         })
         .collect();
     order.sort_by(|&i, &j| scores[j].total_cmp(&scores[i]).then(i.cmp(&j)));
     for &i in &order {
         if taken[i] {
+            continue;
+        }
+        // Too little turning all around: spares the search on straight sides.
+        if turns[i].abs() < FLAT || sums.absolute(i, span) < 0.999 * threshold {
             continue;
         }
         let sharp = turns[i].abs() >= threshold;
@@ -127,7 +134,7 @@ pub fn corners(ring: &[P], options: &CornerOptions) -> Vec<Corner> {
     }
     // Rounder still: the turn within the span is no corner, within three it is.
     for &i in &order {
-        if taken[i] {
+        if taken[i] || turns[i].abs() < FLAT || sums.absolute(i, 3.0 * span) < 0.999 * firm {
             continue;
         }
         let (total, members) = stretch.gather(i, 3.0 * span, &taken);
@@ -161,6 +168,52 @@ fn centre_of(members: &[usize], turns: &[f64], seed: usize) -> usize {
         }
     }
     seed
+}
+
+/// Sums of turns over windows of boundary, in O(log n) each.
+struct Sums {
+    /// Arc length, and sums of turns and of their sizes up to each vertex, over
+    /// three rounds of the ring.
+    along: Vec<f64>,
+    signed: Vec<f64>,
+    absolute: Vec<f64>,
+}
+
+impl Sums {
+    fn new(turns: &[f64], edges: &[f64]) -> Self {
+        let n = turns.len();
+        let (mut along, mut signed, mut absolute) = (vec![0.0], vec![0.0], vec![0.0]);
+        for k in 0..3 * n {
+            along.push(along[k] + edges[k % n]);
+            signed.push(signed[k] + turns[k % n]);
+            absolute.push(absolute[k] + turns[k % n].abs());
+        }
+        Self {
+            along,
+            signed,
+            absolute,
+        }
+    }
+
+    /// First and last (exclusive) vertex within `reach` of vertex `i` of the
+    /// middle round, at most one round in all.
+    fn window(&self, i: usize, reach: f64) -> (usize, usize) {
+        let n = (self.along.len() - 1) / 3;
+        let at = self.along[n + i];
+        let lo = self.along.partition_point(|&a| a < at - reach).max(i + 1);
+        let hi = self.along.partition_point(|&a| a <= at + reach).min(lo + n);
+        (lo, hi.max(n + i + 1))
+    }
+
+    fn signed(&self, i: usize, reach: f64) -> f64 {
+        let (lo, hi) = self.window(i, reach);
+        self.signed[hi] - self.signed[lo]
+    }
+
+    fn absolute(&self, i: usize, reach: f64) -> f64 {
+        let (lo, hi) = self.window(i, reach);
+        self.absolute[hi] - self.absolute[lo]
+    }
 }
 
 struct Stretch<'a> {
