@@ -37,11 +37,11 @@ pub struct SeamReport {
     /// Polygons left alone because a coordinate is no number or beyond 1e8 m, or
     /// because their rings overlap themselves.
     pub unusable: Vec<usize>,
-    /// Further pieces of polygons that fell apart, where a strip thinner than
-    /// the tolerance closed: the polygon's number and the piece. The largest
-    /// piece stays in the polygon's place; the others should become tiles of
-    /// their own.
-    pub pieces: Vec<(usize, Polygon<f64>)>,
+    /// Polygons that fell apart, where a strip thinner than the tolerance
+    /// closed: the polygon's number and its pieces, largest first. The polygon
+    /// itself is left with rings that meet themselves; put the pieces in its
+    /// place.
+    pub pieces: Vec<(usize, Vec<Polygon<f64>>)>,
 }
 
 /// Makes polygons share vertices exactly: [`seam_to`] without fixed vertices.
@@ -116,22 +116,32 @@ pub fn seam_to(
         let before = own.len();
         let exterior_left = own[0].len() > 2;
         own.retain(|chain| chain.len() > 2);
-        let mut done = match (exterior_left, meets_itself(&own)) {
+        let done = match (exterior_left, meets_itself(&own)) {
             (false, _) => Vec::new(),
             (true, false) => vec![own],
-            (true, true) => retraced(&own, &places).unwrap_or_else(|| {
-                report.unusable.push(number);
-                vec![own]
-            }),
+            (true, true) => match retraced(&own, &places) {
+                Some(pieces) if pieces.len() > 1 => {
+                    let pieces = pieces.iter().map(|rings| drawn(rings, &places)).collect();
+                    report.pieces.push((number, pieces));
+                    vec![own]
+                }
+                Some(single) => single,
+                None => {
+                    report.unusable.push(number);
+                    vec![own]
+                }
+            },
         };
-        if done.is_empty() {
-            report.collapsed.push(number);
-        } else {
-            report.closed_holes += before.saturating_sub(done.iter().map(Vec::len).sum());
-        }
-        let mut done = done.drain(..).map(|rings| drawn(&rings, &places));
-        polygons[number] = done.next().unwrap_or_else(nothing);
-        report.pieces.extend(done.map(|piece| (number, piece)));
+        polygons[number] = match done.first() {
+            Some(rings) => {
+                report.closed_holes += before.saturating_sub(rings.len());
+                drawn(rings, &places)
+            }
+            None => {
+                report.collapsed.push(number);
+                nothing()
+            }
+        };
     }
     report.unusable.sort_unstable();
     report
@@ -388,11 +398,9 @@ mod tests {
         ]];
         let report = seam(&mut tiles, 1e-4);
         assert_eq!(report.pieces.len(), 1);
-        assert_eq!(
-            (report.pieces[0].0, report.pieces[0].1.exterior().0.len()),
-            (0, 4)
-        );
-        assert_eq!(tiles[0].exterior().0.len(), 4);
+        let (number, pieces) = &report.pieces[0];
+        assert_eq!((*number, pieces.len()), (0, 2));
+        assert!(pieces.iter().all(|piece| piece.exterior().0.len() == 4));
     }
 
     #[test]
