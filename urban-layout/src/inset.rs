@@ -114,6 +114,7 @@ fn plot(region: &Region, shape: Vec<Vec<[f64; 2]>>) -> Option<Plot> {
         .into_iter()
         .map(|ring| clean_ring(&ring.into_iter().map(|p| at(p[0], p[1])).collect::<Vec<_>>()))
         .filter(|ring| ring.len() >= 3)
+        .map(|ring| with_changes(region, ring))
         .collect();
     let area: f64 = rings.iter().map(|r| signed_area(r)).sum();
     if rings.is_empty() || area < LEAST_PLOT {
@@ -121,6 +122,29 @@ fn plot(region: &Region, shape: Vec<Vec<[f64; 2]>>) -> Option<Plot> {
     }
     let sides = rings.iter().map(|ring| label(region, ring)).collect();
     Some(Plot { rings, sides, area })
+}
+
+/// The ring with the points of the boundary at which access begins or ends:
+/// they lie on straight edges, but the edge is not the same on both sides.
+fn with_changes(region: &Region, mut ring: Vec<Coord<f64>>) -> Vec<Coord<f64>> {
+    for l in &region.loops {
+        let n = l.points.len();
+        for i in 0..n {
+            let (before, after) = (&l.sides[(i + n - 1) % n], &l.sides[i]);
+            if before.access == after.access || before.inset > 0.0 || after.inset > 0.0 {
+                continue;
+            }
+            let p = l.points[i];
+            let count = ring.len();
+            let on = (0..count).find(|&k| dist(nearest_on(ring[k], ring[(k + 1) % count], p).0, p) < 1e-3);
+            if let Some(k) = on {
+                if dist(ring[k], p) > 0.01 && dist(ring[(k + 1) % count], p) > 0.01 {
+                    ring.insert(k + 1, p);
+                }
+            }
+        }
+    }
+    ring
 }
 
 /// The ring without points closer than a millimetre, spikes, and points on the

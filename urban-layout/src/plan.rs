@@ -64,11 +64,33 @@ pub fn generate_with(
     let (mut tree, roots) = Tree::new(site)?;
     grow(&mut tree, site, roots, splitters, options, progress)?;
     let split = start.elapsed().as_secs_f64();
+    finish(tree, site, &Path::everything(), splitters, options, progress, split, start)
+}
+
+/// Optimises and fills what lies below `root`, and assembles the layout.
+#[allow(clippy::too_many_arguments, reason = "the state of a run, passed once from either of two callers")]
+fn finish(
+    mut tree: Tree,
+    site: &Site,
+    root: &Path,
+    splitters: &[Box<dyn Splitter>],
+    options: &PlanOptions,
+    progress: &mut dyn Progress,
+    split: f64,
+    start: Instant,
+) -> Result<Plan> {
     let begin = Instant::now();
-    fill(&mut tree, &Path::everything(), splitters, options, progress)?;
+    if options.optimize {
+        planner::improve(&mut tree, root, options, progress)?;
+    }
     let optimize = begin.elapsed().as_secs_f64();
+    let begin = Instant::now();
+    fill(&mut tree, root, splitters, options, progress)?;
+    let filling = begin.elapsed().as_secs_f64();
+    let begin = Instant::now();
     let layout = assemble(&tree, site, options.seed, options.street_width, options.min_frontage);
-    let seconds = Seconds { split, optimize, total: start.elapsed().as_secs_f64(), ..Seconds::default() };
+    let others = vec![("fill".to_owned(), filling), ("assemble".to_owned(), begin.elapsed().as_secs_f64())];
+    let seconds = Seconds { split, optimize, total: start.elapsed().as_secs_f64(), others, ..Seconds::default() };
     Ok(Plan { layout, seconds, tree, site: site.clone(), options: options.clone() })
 }
 
@@ -101,7 +123,7 @@ fn fill(
     let leaves: Vec<_> = tree.leaves.values().filter(|l| l.path.is_within(root)).cloned().collect();
     let filled = planner::parallel::map(&leaves, |leaf| {
         let region = tree.region(leaf.face, &leaf.path, options.seed);
-        let scene = crate::splitter::Scene { network: &tree.network, options };
+        let scene = crate::splitter::Scene { network: &tree.network, options, draft: false };
         let first = splitters.iter().filter(|s| s.name() == leaf.lineage.by);
         let rest = splitters.iter().filter(|s| s.name() != leaf.lineage.by);
         first.chain(rest).find_map(|s| {
@@ -152,6 +174,25 @@ impl Plan {
     #[must_use]
     pub fn options(&self) -> &PlanOptions {
         &self.options
+    }
+
+    /// The plan with the region at `path` (the `split` of a layout's features)
+    /// split anew under another seed. Every other region keeps its result: its
+    /// tiles do not change by a bit; the streets around the region keep their
+    /// lines, but their junctions with what was and is inside come and go.
+    ///
+    /// # Errors
+    /// [`Error::is_usage`] if no region has that path or a given road divides
+    /// it, else as [`generate`].
+    pub fn reroll(&self, path: &Path, seed: u64, progress: &mut dyn Progress) -> Result<Self> {
+        let start = Instant::now();
+        let splitters = standard_splitters(&self.options)?;
+        let mut tree = self.tree.clone();
+        let pending = planner::clear(&mut tree, path)?;
+        tree.rerolled.insert(path.clone(), seed);
+        planner::split(&mut tree, vec![pending], &splitters, &self.options, progress)?;
+        let split = start.elapsed().as_secs_f64();
+        finish(tree, &self.site, path, &splitters, &self.options, progress, split, start)
     }
 
     /// The split tree and network behind the layout.

@@ -167,7 +167,7 @@ fn best_link(
         }
     }
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
-    let scene = Scene { network, options };
+    let scene = Scene { network, options, draft: true };
     let maker = CutMaker::new(&scene, region).without_room();
     let mut cuts = Vec::new();
     let mut cost = None;

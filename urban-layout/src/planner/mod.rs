@@ -18,9 +18,13 @@ use crate::site::{RoadClass, Site};
 use crate::splitter::{Action, Cut, Fill, Proposal, Scene, Splitter};
 
 mod connect;
+mod improve;
+mod reroll;
 pub(crate) mod parallel;
 pub mod seed;
 
+pub(crate) use improve::improve;
+pub(crate) use reroll::clear;
 use seed::{mix, Path};
 
 /// A region that is split no further, and what fills it.
@@ -139,7 +143,7 @@ fn ask(
     splitters: &[Box<dyn Splitter>],
     options: &PlanOptions,
 ) -> Vec<Proposal> {
-    let scene = Scene { network, options };
+    let scene = Scene { network, options, draft: true };
     splitters
         .iter()
         .map(|s| s.propose(&scene, region))

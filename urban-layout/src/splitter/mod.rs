@@ -35,6 +35,9 @@ pub struct Scene<'a> {
     pub network: &'a Network,
     /// The run's options.
     pub options: &'a PlanOptions,
+    /// Only the way to go is asked for: a [`Fill`] may be left empty, since the
+    /// block will be filled when the network has its final shape.
+    pub draft: bool,
 }
 
 /// A way to split a region out, or to fill it.

@@ -20,6 +20,10 @@ impl Splitter for SkeletonParceler {
         if !region.has_access() {
             return Vec::new();
         }
+        let mut fill = Fill { template: self.name().to_owned(), ..Fill::default() };
+        if scene.draft {
+            return vec![Proposal { cost: 0.0, action: Action::Fill(fill), lineage: Lineage::of(region, self.name()) }];
+        }
         let options = scene.options;
         let rule = ParcelOptions {
             depth: options.parcel_length,
@@ -27,7 +31,6 @@ impl Splitter for SkeletonParceler {
             min_frontage: options.min_frontage,
             ..ParcelOptions::default()
         };
-        let mut fill = Fill { template: self.name().to_owned(), ..Fill::default() };
         for plot in inset(region).iter().flat_map(|p| p.without_holes(region)) {
             fill.faces.extend(fill_plot(plot, &rule));
         }

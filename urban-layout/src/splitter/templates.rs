@@ -8,6 +8,7 @@ use crate::inset::{inset, Plot};
 use crate::assemble::polygon_of;
 use crate::layout::{is_undesirable, measure_parcel, Lineage};
 use crate::options::PlanOptions;
+use crate::planner::seed::mix;
 use crate::region::Region;
 use crate::splitter::{Action, FaceUse, Fill, FillFace, Proposal, Scene, Service, Splitter};
 
@@ -19,6 +20,8 @@ pub struct TemplateSplitter {
 
 /// Matches that are warped before a block counts as one that no template fits.
 const WARPED: usize = 4;
+/// Share of the blocks on which a template with a private park may be used.
+const PARK_CHANCE: f64 = 0.06;
 /// Share of undesirable parcels that a template may have on a block.
 const UNDESIRABLE: f64 = 0.10;
 
@@ -59,9 +62,22 @@ impl Splitter for TemplateSplitter {
         }
         let mut best: Option<(f64, Warped)> = None;
         let Ok(block) = template_region(plot) else { return Vec::new() };
-        for candidate in match_templates(&self.library, &block, &MatchOptions::default()).iter().take(WARPED) {
+        let candidates = match_templates(&self.library, &block, &MatchOptions::default());
+        if scene.draft {
+            // The paper picks the template by its boundary, before any warp.
+            let lineage = Lineage::of(region, self.name());
+            let action = || Action::Fill(Fill { template: self.name().to_owned(), ..Fill::default() });
+            return candidates.first().map(|c| Proposal { cost: c.distortion, action: action(), lineage }).into_iter().collect();
+        }
+        for candidate in candidates.iter().take(WARPED) {
             let Ok(warped) = warp(&self.library, &block, candidate, &WarpOptions::default()) else { continue };
             if warped.energy > options.template_energy || undesirable(&warped) > UNDESIRABLE {
+                continue;
+            }
+            // Land in private parks is land that nobody asked to keep open:
+            // such templates stay rare.
+            let opens_land = warped.faces.iter().any(|f| f.label == "park");
+            if opens_land && !options.templates.contains(&warped.template) && !park_is_due(region) {
                 continue;
             }
             // Energy over probability, as NUMERICS has it: a product would
@@ -73,6 +89,12 @@ impl Splitter for TemplateSplitter {
         }
         best.into_iter().map(|(cost, warped)| proposal(region, cost, warped)).collect()
     }
+}
+
+/// Whether this block may have a private park, drawn once for each block.
+fn park_is_due(region: &Region) -> bool {
+    let draw = (mix(region.seed ^ 0x9a4c) >> 11) as f64 / (1u64 << 53) as f64;
+    draw < PARK_CHANCE
 }
 
 fn template_region(plot: &Plot) -> std::result::Result<TemplateRegion, template_warp::WarpError> {
