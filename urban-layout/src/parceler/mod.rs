@@ -147,9 +147,10 @@ pub(crate) struct Piece {
 ///
 /// # Complexity
 ///
-/// Work is bounded by a budget that grows with the block's area; it is spent
-/// on irregular blocks only. A regular block of 20 parcels takes one to three
-/// milliseconds, an irregular one five to ten.
+/// Work is bounded by a budget that grows with the block's area. On one core a
+/// rectangle of 20 parcels takes well under a millisecond, a curved double row
+/// of 20 about 5 ms, an irregular leftover of 8 about 5 ms and a hopeless one
+/// of 20 (all corners oblique) up to 30 ms.
 pub(crate) fn parcel(block: &Block, options: &ParcelOptions) -> Vec<Piece> {
     let options = &sane(options);
     let Some((shape, origin)) = local(block) else {

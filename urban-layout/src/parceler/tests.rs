@@ -287,18 +287,17 @@ proptest! {
 
     #[test]
     fn turning_the_block_changes_little(block in strip(), turn in 0.0..TAU) {
-        // The search compares costs; rounding may tip a tie, but never make
-        // the plan of another class.
+        // The search compares costs; rounding may tip a tie, say between two
+        // bad lots and a green, but never make a plan of another class.
         let (s, k) = turn.sin_cos();
         let turned = Block {
             ring: block.ring.iter().map(|p| c(k * p.x - s * p.y, s * p.x + k * p.y)).collect(),
             ..block.clone()
         };
         let (a, b) = (score(&block), score(&turned));
-        let total = area(&block.ring);
-        prop_assert!(a.0.abs_diff(b.0) <= 1, "bad {a:?} {b:?}");
-        prop_assert!(a.1.abs_diff(b.1) <= 2, "count {a:?} {b:?}");
-        prop_assert!((a.2 - b.2).abs() <= 0.08 * total, "green {a:?} {b:?}");
+        let worth = |x: (usize, usize, f64)| x.0 as f64 + 2.1 * x.2 / 540.0;
+        prop_assert!((worth(a) - worth(b)).abs() <= 2.0, "{a:?} {b:?}");
+        prop_assert!(a.1.abs_diff(b.1) <= 2 + a.1 / 8, "{a:?} {b:?}");
     }
 }
 
