@@ -38,10 +38,11 @@ pub(crate) fn cross(a: P, b: P) -> f64 {
     a.x * b.y - a.y * b.x
 }
 
-/// Length.
+/// Length. By a square root, which is the same on every machine, where a
+/// library's `hypot` need not be; coordinates are far from over- or underflow.
 #[inline]
 pub(crate) fn norm(a: P) -> f64 {
-    a.x.hypot(a.y)
+    dot(a, a).sqrt()
 }
 
 /// Distance of two points.

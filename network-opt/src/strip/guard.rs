@@ -31,6 +31,9 @@ struct Watched {
     block: Option<usize>,
 }
 
+/// After so many halvings a step is taken back whole.
+const ROUNDS: usize = 8;
+
 /// The faces around all vertices that move.
 #[derive(Debug)]
 pub(super) struct Guard {
@@ -149,31 +152,32 @@ impl Guard {
         let full = new.to_vec();
         let mut share = vec![1.0_f64; new.len()];
         let mut pending: Vec<u32> = (0..self.faces.len() as u32).collect();
-        // Each round halves a step or zeroes it; after 8 halvings it is
-        // zeroed. So the rounds end, at the latest with nothing moved.
+        // A round slows all of a broken face to half of its slowest vertex.
+        // From the last round on steps are taken back whole, so that the
+        // rounds end: at the latest with nothing moved.
+        let mut round = 0;
         while !pending.is_empty() {
-            let mut slowed: Vec<VertexId> = Vec::new();
+            let mut slowed: Vec<(usize, f64)> = Vec::new();
             for &f in &pending {
-                if !self.accepts(f, new, blocks, target) {
-                    slowed.extend(self.faces[f as usize].loops.iter().flatten());
+                if self.accepts(f, new, blocks, target) {
+                    continue;
                 }
+                let on = || self.faces[f as usize].loops.iter().flatten();
+                let least = on().map(|v| share[v.0 as usize]).fold(1.0, f64::min);
+                let next = if round < ROUNDS { 0.5 * least } else { 0.0 };
+                slowed.extend(on().map(|v| (v.0 as usize, next)));
             }
-            slowed.sort_unstable();
-            slowed.dedup();
-            slowed.retain(|v| share[v.0 as usize] > 0.0 && full[v.0 as usize] != old[v.0 as usize]);
             pending.clear();
-            for v in slowed {
-                let i = v.0 as usize;
-                share[i] = if share[i] > 1.0 / 256.0 {
-                    share[i] / 2.0
-                } else {
-                    0.0
-                };
-                new[i] = between(old[i], full[i], share[i]);
-                pending.extend(&self.at_vertex[i]);
+            for (i, next) in slowed {
+                if full[i] != old[i] && next < share[i] {
+                    share[i] = next;
+                    new[i] = between(old[i], full[i], next);
+                    pending.extend(&self.at_vertex[i]);
+                }
             }
             pending.sort_unstable();
             pending.dedup();
+            round += 1;
         }
         share.iter().filter(|&&s| s < 1.0).count()
     }

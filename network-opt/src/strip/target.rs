@@ -1,6 +1,6 @@
 //! Where a block's vertices would like to be: the strip of section 6.
 
-use crate::mesh::predicates::{dist, dot, lerp, norm, sub, P};
+use crate::mesh::predicates::{cross, dist, dot, lerp, norm, sub, P};
 use geo_types::Coord;
 
 /// A shape that a block would like to have.
@@ -41,17 +41,22 @@ impl<T: TargetShape + ?Sized> TargetShape for &T {
 /// line (section 6, "Regularity").
 ///
 /// Of a block's two pairs of opposite sides, the one whose distance varies
-/// less makes the strip. Both its sides are sampled evenly, the midpoints
+/// less along its length makes the strip. Both its sides are sampled evenly, the midpoints
 /// form the middle polyline, and the target sides lie half the width to its
 /// left and right; the other two sides are straight. Each vertex goes to the
 /// point of the target side that has its arc-length parameter.
 ///
 /// # Differs from the paper
 ///
+/// - The pair is chosen by the deviation of its distance over its length.
+///   By the bare deviation, a long block with a slight wobble everywhere may
+///   be taken for a strip across, as wide as the block is long.
 /// - The width is measured across the middle line, not between samples: for a
 ///   skewed block that keeps the area, where the paper's would grow it.
-/// - Normals are those of the circle through three neighbouring midpoints, so
-///   that evenly sampled circular strips are fixed points exactly.
+/// - Normals (not specified there) are fitted over a width of the strip.
+///   Evenly sampled circular strips are fixed points exactly; normals from
+///   neighbouring samples would be so too, but turn a wobble of one vertex
+///   into a larger one of the target, so that refitting diverges.
 /// - The number of samples, left open there, is that of the side with more
 ///   edges, at least 8.
 #[derive(Clone, Debug, PartialEq)]
@@ -113,11 +118,11 @@ impl TargetShape for StripFit {
         };
         // Within rounding of each other the longer pair wins.
         let (a, b) = (pair(0)?, pair(1)?);
-        let slack = 1e-9 * (a.length + b.length);
-        let second = if (a.deviation - b.deviation).abs() <= slack {
+        let (ta, tb) = (a.deviation / a.length, b.deviation / b.length);
+        let second = if (ta - tb).abs() <= 1e-9 {
             b.length > a.length
         } else {
-            b.deviation < a.deviation
+            tb < ta
         };
         let (k, pair) = if second { (1, b) } else { (0, a) };
         let width = match self.width {
@@ -130,8 +135,9 @@ impl TargetShape for StripFit {
         let last = right.len() - 1;
         let mut place = |side: &[usize], target: &[P]| -> Option<()> {
             let own: Vec<P> = side.iter().map(|&i| ring[i]).collect();
+            let along = parameters(target)?;
             for (t, &i) in parameters(&own)?.into_iter().zip(side) {
-                out[i] = at_parameter(target, t)?;
+                out[i] = at_parameter(target, &along, t);
             }
             Some(())
         };
@@ -170,7 +176,11 @@ impl Pair {
         let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
         let deviation =
             (gaps.iter().map(|g| (g - mean).powi(2)).sum::<f64>() / gaps.len() as f64).sqrt();
-        let normals = normals(&middle)?;
+        // Directions are taken over about a width of the strip.
+        let reach = (0.5 * mean / length * count as f64)
+            .round()
+            .min(count as f64) as usize;
+        let normals = normals(&middle, reach)?;
         let width = right
             .iter()
             .zip(&left)
@@ -201,60 +211,49 @@ impl Pair {
     }
 }
 
-/// Unit left normals of a polyline at its points: of the circle through the
-/// point and its two neighbours (at the ends, through the first three).
+/// Unit left normals of an evenly sampled polyline at its points.
 ///
-/// By inversion about the point, the circle becomes a line along its tangent:
-/// the images of the neighbours, at d / |d|^2, span it.
-fn normals(line: &[P]) -> Option<Vec<P>> {
-    let inverse = |d: P| {
-        let d2 = dot(d, d);
-        (d2 > 0.0).then(|| P {
-            x: d.x / d2,
-            y: d.y / d2,
-        })
-    };
-    let unit = |t: P| {
-        let l = norm(t);
-        (l > 0.0 && l.is_finite()).then(|| P {
-            x: -t.y / l,
-            y: t.x / l,
-        })
-    };
-    let n = line.len();
-    let at_end = |p: P, q: P, r: P| -> Option<P> {
-        let (d, e) = (sub(q, p), sub(r, p));
-        let fitted = sub(inverse(d)?, inverse(e)?);
-        // A fold right at the end has no sensible circle: use the chord.
-        unit(if dot(fitted, d) > 0.5 * norm(fitted) * norm(d) {
-            fitted
-        } else {
-            d
-        })
-    };
-    if n == 2 {
-        let normal = unit(sub(line[1], line[0]))?;
-        return Some(vec![normal; 2]);
+/// The direction at a point is that of a line fitted (least squares) to the
+/// directions of the chords around it, over their number: exact on straight
+/// lines and on circles, whose chords turn evenly, and steady where single
+/// points are off, which a difference of neighbours is not. The window is
+/// `reach` chords to each side; at the ends it is as long, but one-sided.
+fn normals(line: &[P], reach: usize) -> Option<Vec<P>> {
+    let chords = line.len().checked_sub(1).filter(|&n| n > 0)?;
+    // Directions of the chords, unwrapped.
+    let mut angles = Vec::with_capacity(chords);
+    let mut last: Option<P> = None;
+    for w in line.windows(2) {
+        let d = sub(w[1], w[0]);
+        if !(norm(d) > 0.0 && norm(d).is_finite()) {
+            return None;
+        }
+        let angle = match (last, angles.last()) {
+            (Some(l), Some(&a)) => a + cross(l, d).atan2(dot(l, d)),
+            _ => d.y.atan2(d.x),
+        };
+        angles.push(angle);
+        last = Some(d);
     }
-    let mut all = Vec::with_capacity(n);
-    for i in 0..n {
-        all.push(if i == 0 {
-            at_end(line[0], line[1], line[2])?
-        } else if i + 1 == n {
-            let m = at_end(line[n - 1], line[n - 2], line[n - 3])?;
-            P { x: -m.x, y: -m.y }
-        } else {
-            let (a, b) = (
-                inverse(sub(line[i], line[i - 1]))?,
-                inverse(sub(line[i + 1], line[i]))?,
-            );
-            unit(P {
-                x: a.x + b.x,
-                y: a.y + b.y,
-            })?
-        });
-    }
-    Some(all)
+    let span = (2 * reach.max(1)).min(chords);
+    let normal = |i: usize| {
+        let from = i.saturating_sub(span / 2).min(chords - span);
+        let window = &angles[from..from + span];
+        // Chord k of the window has its middle at k + 1/2; the point is at
+        // i - from. The regression through the window's centre.
+        let centre = span as f64 / 2.0;
+        let mean = window.iter().sum::<f64>() / span as f64;
+        let (mut top, mut bottom) = (0.0, 0.0);
+        for (k, a) in window.iter().enumerate() {
+            let x = k as f64 + 0.5 - centre;
+            top += x * (a - mean);
+            bottom += x * x;
+        }
+        let slope = if bottom > 0.0 { top / bottom } else { 0.0 };
+        let (sin, cos) = (mean + slope * ((i - from) as f64 - centre)).sin_cos();
+        P { x: -sin, y: cos }
+    };
+    Some((0..line.len()).map(normal).collect())
 }
 
 /// Arc-length parameters of a polyline's points, 0 to 1.
@@ -275,9 +274,9 @@ fn parameters(line: &[P]) -> Option<Vec<f64>> {
     Some(all)
 }
 
-/// The point of a polyline at an arc-length parameter.
-fn at_parameter(line: &[P], t: f64) -> Option<P> {
-    let all = parameters(line)?;
+/// The point of a polyline at an arc-length parameter, given those of its
+/// points.
+fn at_parameter(line: &[P], all: &[f64], t: f64) -> P {
     let i = all.partition_point(|&s| s <= t).clamp(1, line.len() - 1);
     let span = all[i] - all[i - 1];
     let local = if span > 0.0 {
@@ -285,7 +284,7 @@ fn at_parameter(line: &[P], t: f64) -> Option<P> {
     } else {
         1.0
     };
-    Some(lerp(line[i - 1], line[i], local))
+    lerp(line[i - 1], line[i], local)
 }
 
 /// `count + 1` points of a polyline, evenly spaced along it.
@@ -313,7 +312,6 @@ fn sample(line: &[P], count: usize) -> Option<Vec<P>> {
 #[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
-    use crate::mesh::predicates::cross;
     use geo_types::coord;
 
     fn p(x: f64, y: f64) -> P {
