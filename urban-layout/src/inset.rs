@@ -13,22 +13,22 @@ use crate::region::Region;
 
 /// A piece of land inside the streets around it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Plot {
+pub(crate) struct Plot {
     /// Outer ring, counter-clockwise and open; then holes, clockwise.
-    pub rings: Vec<Vec<Coord<f64>>>,
+    pub(crate) rings: Vec<Vec<Coord<f64>>>,
     /// For each edge of each ring, what it borders on.
-    pub sides: Vec<Vec<PlotSide>>,
+    pub(crate) sides: Vec<Vec<PlotSide>>,
     /// Area, square metres.
-    pub area: f64,
+    pub(crate) area: f64,
 }
 
 /// What an edge of a [`Plot`] borders on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PlotSide {
+pub(crate) struct PlotSide {
     /// Parcels may front here.
-    pub access: bool,
+    pub(crate) access: bool,
     /// A street runs along it.
-    pub street: bool,
+    pub(crate) street: bool,
 }
 
 /// Boolean operations here run on points as pairs.
@@ -41,8 +41,7 @@ const LAP: f64 = 1e-4;
 const LEAST_PLOT: f64 = 1.0;
 
 /// The plots of a region, largest first.
-#[must_use]
-pub fn inset(region: &Region) -> Vec<Plot> {
+pub(crate) fn inset(region: &Region) -> Vec<Plot> {
     let mut strips: Vec<Vec<[f64; 2]>> = Vec::new();
     for l in &region.loops {
         let n = l.points.len();
@@ -207,8 +206,7 @@ fn label(region: &Region, ring: &[Coord<f64>]) -> Vec<PlotSide> {
 impl Plot {
     /// This plot without holes: cut by lines through them, so that each piece
     /// is a simple ring.
-    #[must_use]
-    pub fn without_holes(&self, region: &Region) -> Vec<Self> {
+    pub(crate) fn without_holes(&self, region: &Region) -> Vec<Self> {
         if self.rings.len() <= 1 {
             return vec![self.clone()];
         }
@@ -225,7 +223,7 @@ impl Plot {
                 let (a, b) = (centre - axis * (reach * sign), centre + axis * (reach * sign));
                 let deep = left(axis) * (reach * sign);
                 let half = ring_of(&[a, b, b + deep, a + deep]);
-                boolean(&[subject.clone()], &[half], OverlayRule::Intersect)
+                boolean(std::slice::from_ref(&subject), &[half], OverlayRule::Intersect)
             })
             .filter_map(|shape| plot(region, shape))
             .flat_map(|p| p.without_holes(region))
@@ -233,8 +231,7 @@ impl Plot {
     }
 
     /// Whether any edge gives access.
-    #[must_use]
-    pub fn has_access(&self) -> bool {
+    pub(crate) fn has_access(&self) -> bool {
         self.sides.iter().flatten().any(|s| s.access)
     }
 }

@@ -129,17 +129,6 @@ impl Region {
         (SegmentGrid::new(segments), sides)
     }
 
-    /// The loop and edge of the `index`-th of [`Region::edges`].
-    pub(crate) fn locate_edge(&self, mut index: usize) -> (usize, usize) {
-        for (ring, l) in self.loops.iter().enumerate() {
-            if index < l.points.len() {
-                return (ring, index);
-            }
-            index -= l.points.len();
-        }
-        (0, 0)
-    }
-
     /// Whether a street lies inside, both its sides the region's.
     #[must_use]
     pub fn has_slits(&self) -> bool {

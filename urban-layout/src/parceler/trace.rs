@@ -190,11 +190,12 @@ fn start_heading(shape: &Shape, level: &Level, from: Mark, step: f64) -> Option<
     // around on a small circle for the level line instead.
     let probe = 0.4 * step;
     let mut best: Option<(f64, P)> = None;
+    // Counted from the boundary's direction, so that a turned block is traced
+    // like the block.
+    let (a, b) = shape.edge(from.edge);
+    let along = unit(b - a)?;
     for k in 0..48 {
-        let d = super::geom::turned(
-            P { x: 1.0, y: 0.0 },
-            f64::from(k) * std::f64::consts::TAU / 48.0,
-        );
+        let d = super::geom::turned(along, f64::from(k) * std::f64::consts::TAU / 48.0);
         let q = from.at + d * probe;
         if inside(&shape.ring, q) {
             let v = level.value(q).0.abs();

@@ -57,7 +57,7 @@ pub(super) fn connect(tree: &mut Tree, site: &Site, options: &PlanOptions) -> Ve
         for (_, i, cuts) in order {
             let p = &open[i];
             let lineage = Lineage { split: p.path.to_string(), by: "connector".to_owned(), ..Lineage::default() };
-            let laid = cuts.iter().find_map(|cut| apply(tree, p, std::slice::from_ref(cut), &lineage, options));
+            let laid = cuts.iter().find_map(|cut| apply(tree, p, std::slice::from_ref(cut), &lineage, options, CutMaker::TIGHT - 0.05));
             if let Some(children) = laid {
                 tree.leaves.remove(&p.path);
                 out.retain(|q| q.path != p.path);
@@ -181,7 +181,44 @@ fn best_link(
             }
         }
     }
+    if cuts.is_empty() {
+        let (link, length) = winding_link(region, &maker, &spots, components, first)?;
+        // Straight links are preferred, whatever their length.
+        return Some((1e6 + length, vec![link]));
+    }
     cost.map(|c| (c, cuts))
+}
+
+/// A link that follows the shape of the region, and its length.
+fn winding_link(
+    region: &Region,
+    maker: &CutMaker<'_>,
+    spots: &[Spot],
+    components: &Components,
+    first: bool,
+) -> Option<(Cut, f64)> {
+    let mut own: Vec<usize> = spots.iter().filter_map(|s| s.component).collect();
+    own.sort_unstable();
+    own.dedup();
+    let lead = *own.first()?;
+    if first || (own.len() < 2 && components.out[lead]) {
+        return None;
+    }
+    let from: Vec<&Spot> = spots.iter().filter(|s| s.component == Some(lead)).collect();
+    let to: Vec<&Spot> = spots
+        .iter()
+        .filter(|s| match s.component {
+            Some(c) => c != lead && components.part[c] == components.part[lead],
+            None => s.exit && !components.out[lead],
+        })
+        .collect();
+    let place = |s: &&Spot| s.place.at;
+    let starts: Vec<Coord<f64>> = from.iter().map(place).collect();
+    let goals: Vec<Coord<f64>> = to.iter().map(place).collect();
+    let (i, j, points) = super::geodesic::path(region, &starts, &goals)?;
+    let length = crate::plane::length(&points);
+    let cut = maker.make(&Path2 { from: from[i].place, to: to[j].place, points })?;
+    Some((cut, length))
 }
 
 /// Places along a region's streets and exits.

@@ -18,6 +18,7 @@ use crate::site::{RoadClass, Site};
 use crate::splitter::{Action, Cut, Fill, Proposal, Scene, Splitter};
 
 mod connect;
+mod geodesic;
 mod improve;
 mod reroll;
 pub(crate) mod parallel;
@@ -56,6 +57,10 @@ const MAX_DEPTH: usize = 48;
 /// How often a region may find its proposals overtaken by its neighbours'
 /// streets before it is asked alone.
 const MAX_DEFERRALS: usize = 3;
+
+/// Least distance of a street's end from a junction along the street it meets,
+/// over the street's width.
+const KEEP_OFF: f64 = 1.7;
 
 /// A region that waits to be split.
 #[derive(Clone, Debug)]
@@ -169,7 +174,7 @@ fn commit(tree: &mut Tree, p: Pending, mut proposals: Vec<Proposal>, options: &P
                 return;
             }
             Action::Cut(cuts) => {
-                if let Some(children) = apply(tree, &p, &cuts, &lineage, options) {
+                if let Some(children) = apply(tree, &p, &cuts, &lineage, options, KEEP_OFF) {
                     next.extend(children);
                     return;
                 }
@@ -213,6 +218,7 @@ pub(crate) fn apply(
     cuts: &[Cut],
     lineage: &Lineage,
     options: &PlanOptions,
+    keep_off: f64,
 ) -> Option<Vec<Pending>> {
     let mut parts = vec![p.face];
     let mut laid = 0;
@@ -225,9 +231,10 @@ pub(crate) fn apply(
         };
         let face = parts[slot];
         let region = tree.region(face, &p.path, options.seed);
+        let clear = keep_off * options.street_width;
         let first = cut.path.first().copied().unwrap_or(cut.to.at);
         let last = cut.path.last().copied().unwrap_or(cut.from.at);
-        let ends = (end(tree, &region, &cut.from, first, options), end(tree, &region, &cut.to, last, options));
+        let ends = (end(tree, &region, &cut.from, first, clear), end(tree, &region, &cut.to, last, clear));
         let (Some(from), Some(to)) = ends else {
             continue;
         };
@@ -259,7 +266,7 @@ pub(crate) fn apply(
 
 /// Where a cut's end lies on the region's boundary now; `None` if a junction
 /// has come too close since the cut was proposed.
-fn end(tree: &Tree, region: &Region, place: &Place, towards: Coord<f64>, options: &PlanOptions) -> Option<End> {
+fn end(tree: &Tree, region: &Region, place: &Place, towards: Coord<f64>, clear: f64) -> Option<End> {
     let Place { ring, edge, at } = region.place_facing(place.at, towards);
     if dist(at, place.at) > 1e-3 {
         return None;
@@ -274,11 +281,10 @@ fn end(tree: &Tree, region: &Region, place: &Place, towards: Coord<f64>, options
     } else {
         None
     };
-    let keep_off = 1.7 * options.street_width;
     let crowded = l
         .nodes
         .iter()
-        .any(|n| Some(n.vertex) != vertex && n.junction && l.between(n.position, position) < keep_off);
+        .any(|n| Some(n.vertex) != vertex && n.junction && l.between(n.position, position) < clear);
     if crowded {
         return None;
     }

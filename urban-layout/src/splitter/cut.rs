@@ -68,10 +68,23 @@ impl<'a> CutMaker<'a> {
         self
     }
 
+    /// How near to another junction a connection may end where there is no
+    /// choice, over the street's width.
+    pub(crate) const TIGHT: f64 = 1.25;
+
+    /// How far from other junctions a street's end stays, over its width.
+    fn keep_off(&self) -> f64 {
+        if self.needs_room {
+            1.8
+        } else {
+            Self::TIGHT
+        }
+    }
+
     /// A street along `path`, or `None` if none can be built there.
     pub(crate) fn make(&self, path: &Path2) -> Option<Cut> {
         let total = length(&path.points);
-        if total < 2.0 * self.options.street_width {
+        if total < if self.needs_room { 2.0 } else { 1.3 } * self.options.street_width {
             return None;
         }
         let mut points = smooth(&resample(&path.points, STEP), 3);
@@ -106,7 +119,7 @@ impl<'a> CutMaker<'a> {
     fn anchor(&self, place: &Place, inward: Coord<f64>) -> Option<(Place, Coord<f64>)> {
         let l = &self.region.loops[place.ring];
         let side = l.sides[place.edge];
-        let keep_off = 1.8 * self.options.street_width;
+        let keep_off = self.keep_off() * self.options.street_width;
         let position = l.position(place.edge, place.at);
         // A street outside waits to be continued.
         if side.kind == SideKind::Boundary {
@@ -177,7 +190,8 @@ impl<'a> CutMaker<'a> {
     fn buildable(&self, points: &[Coord<f64>], start: &Place, end: &Place) -> bool {
         let n = points.len();
         for w in points.windows(3) {
-            if turn(w[1] - w[0], w[2] - w[1]).abs() > MOST_TURN_DEG.to_radians() {
+            let most: f64 = if self.needs_room { MOST_TURN_DEG } else { 23.0 };
+            if turn(w[1] - w[0], w[2] - w[1]).abs() > most.to_radians() {
                 return false;
             }
         }
@@ -241,7 +255,7 @@ impl<'a> CutMaker<'a> {
 }
 
 /// `rounds` of averaging with the neighbours, ends fixed.
-fn smooth(points: &[Coord<f64>], rounds: usize) -> Vec<Coord<f64>> {
+pub(crate) fn smooth(points: &[Coord<f64>], rounds: usize) -> Vec<Coord<f64>> {
     let mut points = points.to_vec();
     for _ in 0..rounds {
         let old = points.clone();

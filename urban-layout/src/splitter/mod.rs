@@ -24,9 +24,9 @@ pub use parcels::SkeletonParceler;
 pub use streamlines::StreamlineSplitter;
 pub use templates::TemplateSplitter;
 
-pub(crate) use cut::{CutMaker, Path2};
+pub(crate) use cut::{smooth, CutMaker, Path2};
 pub(crate) use service::Service;
-pub(crate) use streamlines::imbalance;
+pub(crate) use streamlines::{imbalance, mesh_of};
 
 /// What every splitter may look at.
 #[derive(Clone, Copy, Debug)]

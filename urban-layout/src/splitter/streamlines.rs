@@ -47,17 +47,26 @@ impl Splitter for StreamlineSplitter {
     }
 }
 
+/// A region's mesh, `None` where it cannot be meshed.
+pub(crate) fn mesh_of(region: &Region, edge_length: f64) -> Option<Domain> {
+    mesh(&open_rings(region)?, edge_length)
+}
+
+fn mesh(rings: &[Vec<Coord<f64>>], edge_length: f64) -> Option<Domain> {
+    Domain::new(&polygon_of(rings), &DomainOptions { edge_length, ..DomainOptions::default() }).ok()
+}
+
 /// The cross field of a region, `None` where the region cannot be meshed.
 fn field(region: &Region, options: &PlanOptions) -> Option<Field> {
     let edge_length = (region.area.sqrt() / 28.0).clamp(5.0, 25.0);
     let rings = open_rings(region)?;
-    let domain = Domain::new(&polygon_of(&rings), &DomainOptions { edge_length, ..DomainOptions::default() }).ok()?;
+    let domain = mesh(&rings, edge_length)?;
     match options.field {
         FieldKind::Distance => {
             DistanceField { weights: weights(&rings), ..DistanceField::default() }.design(&domain).ok()
         }
         FieldKind::Boundary => BoundaryField::default().design(&domain).ok(),
-        FieldKind::Harmonic => HarmonicField::default().design(&domain).ok(),
+        FieldKind::Harmonic => HarmonicField.design(&domain).ok(),
     }
 }
 

@@ -108,7 +108,7 @@ fn undesirable(warped: &Warped) -> f64 {
     let bad = parcels
         .iter()
         .filter(|f| {
-            let (deviation, ratio) = measure_parcel(&polygon_of(&[f.ring.clone()]));
+            let (deviation, ratio) = measure_parcel(&polygon_of(std::slice::from_ref(&f.ring)));
             is_undesirable(deviation, ratio)
         })
         .count();
