@@ -8,12 +8,12 @@
 //! tangents. A few rounds of smoothing then remove what jumps on the medial
 //! axis.
 //!
-//! Differs from the paper in two points: an edge counts only for points on
+//! Differs from the paper in three points: an edge counts only for points on
 //! its inner side (with weights, the other side of a thin hole could win
 //! otherwise), and a concave turn beyond 135 degrees counts as two corners of
-//! half the turn, with a cap tangent across its end.
+//! half the turn, with a cap tangent across its end. And where footpoints are
+//! equally near, their crosses are averaged instead of one being chosen.
 
-use crate::cross::SINGULAR;
 use crate::domain::{Domain, Ring};
 use crate::field::{smooth, Field, FieldDesign};
 use crate::footpoint::{Bound, Tree};
@@ -338,6 +338,11 @@ impl Sites {
 
     /// The best site for `p` and its cross, zero if there is none.
     ///
+    /// Sites at equal distances are averaged. Ties do happen: refinement
+    /// places vertices at circumcentres, equally far from three vertices of
+    /// the boundary, where rounding would choose otherwise in each direction
+    /// of the compass.
+    ///
     /// `hint`, the site of a point nearby, gives a first bound.
     fn nearest(&self, p: V2, hint: Option<usize>) -> (Option<usize>, V2) {
         let distance = |k: usize| self.sites[k].foot(p, self.slack).map(|(d, _)| d);
@@ -345,14 +350,27 @@ impl Sites {
         // must not depend on what the hint was.
         let limit = hint
             .and_then(distance)
-            .map_or(f64::INFINITY, |d| d * (1.0 + 1e-9) + self.slack);
-        let found = self.tree.nearest(p, limit, distance);
-        let cross = found.and_then(|(k, _)| self.sites[k].foot(p, self.slack));
-        let cross = cross.map_or_else(V2::zeros, |(_, cross)| cross);
-        debug_assert!(found.is_none() || cross.norm() > SINGULAR);
-        (found.map(|(k, _)| k), cross)
+            .map_or(f64::INFINITY, |d| d * (1.0 + TIE) + self.slack);
+        let Some((best, least)) = self.tree.nearest(p, limit, distance) else {
+            return (None, V2::zeros());
+        };
+        let tie = least * (1.0 + TIE) + self.slack;
+        let mut sum = V2::zeros();
+        self.tree.within(p, tie, |k| {
+            if let Some((_, cross)) = self.sites[k].foot(p, self.slack).filter(|&(d, _)| d <= tie) {
+                sum += cross;
+            }
+        });
+        let alone = || self.sites[best].foot(p, self.slack);
+        let cross = sum
+            .try_normalize(1e-6)
+            .or_else(|| alone().map(|(_, cross)| cross));
+        (Some(best), cross.unwrap_or_else(V2::zeros))
     }
 }
+
+/// Weighted distances this near to each other, in parts, are equal.
+const TIE: f64 = 1e-9;
 
 /// Concave turns beyond this, 135 degrees, are capped.
 const CAPPED: f64 = 0.75 * std::f64::consts::PI;

@@ -163,6 +163,30 @@ impl Tree {
     }
 }
 
+impl Tree {
+    /// Calls `visit` with every item whose box may hold a distance of at most
+    /// `limit` from `p`, in no particular order.
+    pub(crate) fn within(&self, p: V2, limit: f64, mut visit: impl FnMut(usize)) {
+        let mut stack = [0_u32; 66];
+        let mut top = usize::from(!self.nodes.is_empty());
+        while top > 0 {
+            top -= 1;
+            let node = &self.nodes[stack[top] as usize];
+            if node.bound.distance(p) > limit {
+                continue;
+            }
+            if node.leaf {
+                let items = &self.order[node.first as usize..node.second as usize];
+                items.iter().for_each(|&item| visit(item as usize));
+            } else {
+                stack[top] = node.first;
+                stack[top + 1] = node.second;
+                top += 2;
+            }
+        }
+    }
+}
+
 /// All ring edges, for plain nearest points.
 #[derive(Clone, Debug)]
 pub(crate) struct EdgeTree {
@@ -243,6 +267,14 @@ mod tests {
                 .filter_map(|k| distance(k).map(|d| (k, d)))
                 .min_by(|a, b| a.1.total_cmp(&b.1));
             assert_eq!(tree.nearest(p, f64::INFINITY, distance), slow);
+            let limit = slow.map_or(0.0, |(_, d)| 2.0 * d);
+            let near = |k: &usize| distance(*k).is_some_and(|d| d <= limit);
+            let mut found = Vec::new();
+            tree.within(p, limit, |k| found.push(k));
+            found.retain(near);
+            found.sort_unstable();
+            let all: Vec<usize> = (0..segments.len()).filter(near).collect();
+            assert_eq!(found, all);
         }
     }
 

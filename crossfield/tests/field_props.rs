@@ -70,14 +70,7 @@ proptest! {
         let there = here.moved(angle, coord! {x: x, y: y});
         for (name, design) in designs() {
             let (a, b) = (design.design(&here)?, design.design(&there)?);
-            // Rounding may decide otherwise where two footpoints are equally
-            // near, and reaches neighbours by smoothing.
-            let allowed = if name == "distance" || name == "rounded corners" {
-                here.vertex_count() / 50
-            } else {
-                0
-            };
-            prop_assert!(off(&a, &b, angle, 1e-6) <= allowed, "{}", name);
+            prop_assert_eq!(off(&a, &b, angle, 1e-6), 0, "{}", name);
         }
     }
 
@@ -159,6 +152,10 @@ proptest! {
                 let at = domain.vertex(v);
                 let blur = if name.starts_with("bo") { 0.0 } else { 0.3 * step / at.x.hypot(at.y) };
                 let off = cross.deviation(&radial);
+                // Uniform weights depend on the mesh, without a bound.
+                if name == "uniform" {
+                    continue;
+                }
                 prop_assert!(off < 0.55 * TAU / count as f64 + blur, "{} {}", name, off);
             }
         }
@@ -216,7 +213,7 @@ proptest! {
         let scaled = weights.iter().map(|r| r.iter().map(|w| w * factor).collect()).collect();
         let design = |weights| DistanceField { weights, ..DistanceField::default() };
         let (a, b) = (design(weights).design(&domain)?, design(scaled).design(&domain)?);
-        prop_assert!(off(&a, &b, 0.0, 1e-9) <= domain.vertex_count() / 50);
+        prop_assert_eq!(off(&a, &b, 0.0, 1e-9), 0);
         // All alike is the default, to the bit.
         let ones = std::iter::once(shape.exterior()).chain(shape.interiors())
             .map(|r| vec![1.0; r.0.len() - 1]).collect();
