@@ -117,7 +117,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             draw(&lines[r.index])
         )?;
     }
-    for &index in distinct(&lines, &ranked, 25.0).iter().take(3) {
+    for &index in distinct(&lines, &ranked, 45.0).iter().take(3) {
         writeln!(
             svg,
             "<path d=\"{}\" stroke=\"#c8371e\" stroke-width=\"3\"/>",

@@ -7,6 +7,9 @@ use crate::vector::{
 use geo_types::{Coord, LineString};
 use rstar::{primitives::GeomWithData, primitives::Line, RTree, AABB};
 
+/// Most pieces that a line is cut into: bounds the memory of an absurd step.
+const MOST: f64 = 1e7;
+
 /// A traced streamline. Coordinates in metres.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -87,8 +90,12 @@ impl Streamline {
     }
 
     fn tangent_between(&self, i: usize, t: f64) -> Point {
-        let mixed = self.vertex_tangent(i) * (1.0 - t) + self.vertex_tangent(i + 1) * t;
-        unit(mixed)
+        self.mix(i, t, self.vertex_tangent(i), self.vertex_tangent(i + 1))
+    }
+
+    /// The tangent at fraction `t` of piece `i`, given those at its ends.
+    fn mix(&self, i: usize, t: f64, from: Point, to: Point) -> Point {
+        unit(from * (1.0 - t) + to * t)
             .or_else(|| unit(self.points[i + 1] - self.points[i]))
             .unwrap_or(Coord::zero())
     }
@@ -153,7 +160,8 @@ impl Streamline {
     }
 
     /// The line cut into equal pieces of at most `step` metres, each given by
-    /// its middle: what the scores integrate over. Empty on a line without
+    /// its middle (ten million pieces at most): what the scores integrate over.
+    /// Empty on a line without
     /// length, or if `step` is not positive.
     #[must_use]
     pub fn samples(&self, step: f64) -> Vec<Sample> {
@@ -161,11 +169,13 @@ impl Streamline {
         if !(step > 0.0 && length > 0.0 && length.is_finite()) {
             return Vec::new();
         }
-        let count = (length / step).ceil().max(1.0);
+        let count = (length / step).ceil().clamp(1.0, MOST);
         let piece = length / count;
         let mut samples = Vec::with_capacity(count as usize);
         let (mut i, mut passed) = (0, 0.0);
         let mut edge = distance(self.points[0], self.points[1]);
+        let mut ends = (self.vertex_tangent(0), self.vertex_tangent(1));
+        let mut known = 0;
         for k in 0..count as usize {
             let s = (k as f64 + 0.5) * piece;
             while s > passed + edge && i + 2 < self.points.len() {
@@ -173,6 +183,13 @@ impl Streamline {
                 i += 1;
                 edge = distance(self.points[i], self.points[i + 1]);
             }
+            // Tangents are found once a piece, and shared with the next one.
+            if i == known + 1 {
+                ends = (ends.1, self.vertex_tangent(i + 1));
+            } else if i != known {
+                ends = (self.vertex_tangent(i), self.vertex_tangent(i + 1));
+            }
+            known = i;
             let t = if edge > 0.0 {
                 ((s - passed) / edge).min(1.0)
             } else {
@@ -181,7 +198,7 @@ impl Streamline {
             let at = self.points[i] + (self.points[i + 1] - self.points[i]) * t;
             samples.push(Sample {
                 at,
-                tangent: self.tangent_between(i, t),
+                tangent: self.mix(i, t, ends.0, ends.1),
                 length: piece,
             });
         }
@@ -190,7 +207,8 @@ impl Streamline {
 
     /// The same line with equally spaced points at most `step` metres apart
     /// along it, ends kept. New points lie on the old polyline; where it bends
-    /// at angle a, the new one cuts the corner by up to step/2 * sin(a/2).
+    /// at angle a, the new one cuts the corner by up to step/2 * sin(a/2). Ten
+    /// million points at most.
     ///
     /// Unchanged if `step` is not positive.
     #[must_use]
@@ -199,7 +217,7 @@ impl Streamline {
         if !(step > 0.0 && length > 0.0 && length.is_finite()) {
             return self.clone();
         }
-        let count = (length / step).ceil().max(1.0) as usize;
+        let count = (length / step).ceil().clamp(1.0, MOST) as usize;
         let mut points = Vec::with_capacity(count + 1);
         points.push(self.points[0]);
         let (mut i, mut passed) = (0, 0.0);

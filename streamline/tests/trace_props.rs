@@ -99,10 +99,14 @@ proptest! {
             prop_assert!((norm(motion.undo(p)) - radius).abs() < 0.05, "{}", norm(motion.undo(p)) - radius);
         }
         let ray = trace(&field, at, motion.turn(coord! { x: cos, y: sin }), &options).unwrap();
-        prop_assert!(ray.start.is_boundary() && ray.end.is_boundary());
-        for &p in &ray.points {
-            let p = motion.undo(p);
-            prop_assert!((p.x * sin - p.y * cos).abs() < 1e-6);
+        prop_assert!(ray.end.is_boundary());
+        // Rays meet in the middle: a stage that falls there by chance has any
+        // direction, and what lies behind it may be another ray.
+        prop_assert!(ray.start.is_boundary() || ray.start == Stop::Singularity);
+        for p in ray.points.iter().map(|&p| motion.undo(p)) {
+            if p.x * cos + p.y * sin > 1.0 {
+                prop_assert!((p.x * sin - p.y * cos).abs() < 1e-6, "{}", p.x * sin - p.y * cos);
+            }
         }
     }
 
