@@ -154,6 +154,14 @@ impl Network {
         self.mesh.outgoing(v).filter(|&h| self.mesh.attr(h).kind == SideKind::Street).collect()
     }
 
+    /// The vertices at which streets end on the site's boundary.
+    pub fn mouths(&self) -> impl Iterator<Item = VertexId> + '_ {
+        self.mesh.vertices().filter(|&v| {
+            self.mesh.outgoing(v).any(|h| self.mesh.attr(h).kind == SideKind::Boundary)
+                && self.mesh.outgoing(v).any(|h| self.mesh.attr(h).kind == SideKind::Street)
+        })
+    }
+
     /// The open rings of a face, outer one first; walks where the face lies on the left.
     pub fn rings(&self, f: FaceId) -> Vec<Vec<Coord<f64>>> {
         self.mesh.loops(f).into_iter().map(|h| self.mesh.ring(h)).collect()

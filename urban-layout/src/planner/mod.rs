@@ -9,7 +9,7 @@ use network_opt::{End, FaceId};
 
 use crate::error::{Error, Result};
 use crate::layout::Lineage;
-use crate::network::{Network, StreetInfo};
+use crate::network::{Network, SideKind, StreetInfo};
 use crate::options::PlanOptions;
 use crate::plane::dist;
 use crate::progress::{Progress, Stage};
@@ -61,6 +61,10 @@ const MAX_DEFERRALS: usize = 3;
 /// Least distance of a street's end from a junction along the street it meets,
 /// over the street's width.
 const KEEP_OFF: f64 = 1.7;
+
+/// The same as the crow flies, over the distance along the street: notches of
+/// the boundary bring far places together.
+const LEAST_SPACING: f64 = 0.75;
 
 /// A region that waits to be split.
 #[derive(Clone, Debug)]
@@ -286,6 +290,11 @@ fn end(tree: &Tree, region: &Region, place: &Place, towards: Coord<f64>, clear: 
         .iter()
         .any(|n| Some(n.vertex) != vertex && n.junction && l.between(n.position, position) < clear);
     if crowded {
+        return None;
+    }
+    let mesh = &tree.network.mesh;
+    let near = |v: network_opt::VertexId| Some(v) != vertex && dist(mesh.point(v), at) < LEAST_SPACING * clear;
+    if l.sides[edge].kind == SideKind::Boundary && tree.network.mouths().any(near) {
         return None;
     }
     // A vertex takes at most four streets.

@@ -19,6 +19,7 @@ pub(crate) struct CutMaker<'a> {
     sides: Vec<Side>,
     major_junctions: Vec<Coord<f64>>,
     entries: Vec<(Coord<f64>, Coord<f64>)>,
+    mouths: Vec<Coord<f64>>,
     needs_room: bool,
 }
 
@@ -57,8 +58,9 @@ impl<'a> CutMaker<'a> {
             })
             .map(|v| network.mesh.point(v))
             .collect();
+        let mouths = network.mouths().map(|v| network.mesh.point(v)).collect();
         let entries = network.entries.iter().map(|e| (e.at, e.inward)).collect();
-        Self { region, options: scene.options, grid, sides, major_junctions, entries, needs_room: true }
+        Self { region, options: scene.options, grid, sides, major_junctions, entries, mouths, needs_room: true }
     }
 
     /// Makes streets where parcels beside them may not fit: connections that
@@ -179,6 +181,10 @@ impl<'a> CutMaker<'a> {
         } else {
             at
         };
+        // Across a notch of the boundary another street's end may be near.
+        if self.mouths.iter().any(|&m| dist(m, at) < Self::TIGHT * self.options.street_width) {
+            return None;
+        }
         let off = angle(normal, inward);
         if off > 55f64.to_radians() {
             return None;
