@@ -88,6 +88,9 @@ pub(super) struct Face {
 /// [`attr_mut`](Self::attr_mut), which must return a value, panic for an id
 /// that was never given out; [`get_attr`](Self::get_attr) does not.
 ///
+/// A mesh read back through `serde` is as good as its source: call
+/// [`validate`](Self::validate) on one from elsewhere before anything else.
+///
 /// # Examples
 ///
 /// ```

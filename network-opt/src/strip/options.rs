@@ -9,7 +9,8 @@ pub struct Block {
     /// The bounded face.
     pub face: FaceId,
     /// Four different vertices of the face's outer loop, counter-clockwise.
-    /// What a block without corners wants is up to the [`TargetShape`];
+    /// What a block without corners wants is up to the
+    /// [`TargetShape`](crate::TargetShape);
     /// [`StripFit`](crate::StripFit) leaves it alone.
     pub corners: Option<[VertexId; 4]>,
 }
