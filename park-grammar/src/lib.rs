@@ -1,7 +1,7 @@
 #![doc = include_str!("../README.md")]
 
-use geo_types::Polygon;
 pub use geo_types;
+use geo_types::Polygon;
 
 /// Why a park could not be derived.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -28,7 +28,9 @@ impl Grammar {
     /// A grammar from its text.
     #[must_use]
     pub fn new(source: impl Into<String>) -> Self {
-        Self { source: source.into() }
+        Self {
+            source: source.into(),
+        }
     }
 
     /// The text of the rules.
@@ -56,12 +58,18 @@ impl Grammar {
     /// assert_eq!(rules.derive(&lawn), Err(ParkError::RulesNotInterpreted));
     /// ```
     pub fn derive(&self, region: &Polygon<f64>) -> Result<(), ParkError> {
-        let mut vertices: Vec<(u64, u64)> =
-            region.exterior().0.iter().map(|c| (c.x.to_bits(), c.y.to_bits())).collect();
+        let mut vertices: Vec<(u64, u64)> = region
+            .exterior()
+            .0
+            .iter()
+            .map(|c| (c.x.to_bits(), c.y.to_bits()))
+            .collect();
         vertices.sort_unstable();
         vertices.dedup();
         if vertices.len() < 3 {
-            return Err(ParkError::Degenerate { vertices: vertices.len() });
+            return Err(ParkError::Degenerate {
+                vertices: vertices.len(),
+            });
         }
         Err(ParkError::RulesNotInterpreted)
     }
@@ -74,9 +82,18 @@ mod tests {
 
     #[test]
     fn regions_are_checked_first() {
-        let line = Polygon::new(LineString::from(vec![(0.0, 0.0), (1.0, 0.0), (0.0, 0.0)]), vec![]);
-        assert_eq!(Grammar::new("").derive(&line), Err(ParkError::Degenerate { vertices: 2 }));
+        let line = Polygon::new(
+            LineString::from(vec![(0.0, 0.0), (1.0, 0.0), (0.0, 0.0)]),
+            vec![],
+        );
+        assert_eq!(
+            Grammar::new("").derive(&line),
+            Err(ParkError::Degenerate { vertices: 2 })
+        );
         let square = polygon![(x: 0., y: 0.), (x: 1., y: 0.), (x: 1., y: 1.), (x: 0., y: 1.)];
-        assert_eq!(Grammar::new("").derive(&square), Err(ParkError::RulesNotInterpreted));
+        assert_eq!(
+            Grammar::new("").derive(&square),
+            Err(ParkError::RulesNotInterpreted)
+        );
     }
 }

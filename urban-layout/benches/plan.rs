@@ -20,7 +20,13 @@ fn site(km2: f64) -> Site {
         (-1.05, 0.7),
         (-0.85, 0.0),
     ];
-    let points: Vec<Coord<f64>> = ring.iter().map(|&(x, y)| Coord { x: x * half, y: y * half }).collect();
+    let points: Vec<Coord<f64>> = ring
+        .iter()
+        .map(|&(x, y)| Coord {
+            x: x * half,
+            y: y * half,
+        })
+        .collect();
     let polygon = Polygon::new(LineString(points), Vec::new());
     Site::from_polygon(&polygon).expect("the outline is simple")
 }

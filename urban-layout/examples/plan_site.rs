@@ -15,13 +15,22 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let seed = words.next().map_or(Ok(0), |s| s.parse())?;
     let site = Site::read(&path)?;
-    let options = PlanOptions { seed, ..PlanOptions::default() };
+    let options = PlanOptions {
+        seed,
+        ..PlanOptions::default()
+    };
     let plan = generate(&site, &options, &mut Quiet)?;
     let mut figures = metrics(&plan.layout, &site);
     figures.seconds = Some(plan.seconds.clone());
     write_all_or_nothing(&[
-        (folder.join("layout.geojson"), layout_to_geojson(&plan.layout, &site.frame).into_bytes()),
-        (folder.join("metrics.json"), figures.to_json().to_string().into_bytes()),
+        (
+            folder.join("layout.geojson"),
+            layout_to_geojson(&plan.layout, &site.frame).into_bytes(),
+        ),
+        (
+            folder.join("metrics.json"),
+            figures.to_json().to_string().into_bytes(),
+        ),
     ])?;
     println!("{} parcels on {:.2} km2", figures.parcels, figures.site_km2);
     Ok(())

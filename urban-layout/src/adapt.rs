@@ -10,13 +10,22 @@ use streamline::{Cursor, DirectionField, Exit};
 pub struct Arms<'a>(pub &'a Field);
 
 impl DirectionField for Arms<'_> {
-    fn direction(&self, at: Coord<f64>, heading: Coord<f64>, cursor: &mut Cursor) -> Option<Coord<f64>> {
+    fn direction(
+        &self,
+        at: Coord<f64>,
+        heading: Coord<f64>,
+        cursor: &mut Cursor,
+    ) -> Option<Coord<f64>> {
         with_cursor(cursor, |c| self.0.direction(at, heading, c))
     }
 
     fn exit(&self, from: Coord<f64>, to: Coord<f64>, cursor: &mut Cursor) -> Option<Exit> {
         let exit = with_cursor(cursor, |c| self.0.domain().exit(from, to, c))?;
-        Some(Exit { point: exit.point, ring: exit.ring, edge: exit.edge })
+        Some(Exit {
+            point: exit.point,
+            ring: exit.ring,
+            edge: exit.edge,
+        })
     }
 
     fn divergence(&self, at: Coord<f64>, heading: Coord<f64>, cursor: &mut Cursor) -> Option<f64> {

@@ -56,19 +56,38 @@ pub(crate) fn inset(region: &Region) -> Vec<Plot> {
                 strips.push(ring_of(&[a + back, b + back, b + m, a + m]));
             }
             let previous = (i + n - 1) % n;
-            strips.extend(reflex_fill(l.points[previous], a, b, l.sides[previous].inset, w));
+            strips.extend(reflex_fill(
+                l.points[previous],
+                a,
+                b,
+                l.sides[previous].inset,
+                w,
+            ));
         }
     }
     let subject: Vec<Vec<[f64; 2]>> = region.loops.iter().map(|l| ring_of(&l.points)).collect();
-    let shapes = if strips.is_empty() { vec![subject] } else { difference(&[subject], &strips) };
-    let mut plots: Vec<Plot> = shapes.into_iter().filter_map(|shape| plot(region, shape)).collect();
+    let shapes = if strips.is_empty() {
+        vec![subject]
+    } else {
+        difference(&[subject], &strips)
+    };
+    let mut plots: Vec<Plot> = shapes
+        .into_iter()
+        .filter_map(|shape| plot(region, shape))
+        .collect();
     plots.sort_by(|a, b| b.area.total_cmp(&a.area));
     plots
 }
 
 /// Fills the wedge that strips leave open at a reflex vertex: to a mitre where
 /// the turn is slight, with a fan of at most 10 degrees a step elsewhere.
-fn reflex_fill(before: Coord<f64>, v: Coord<f64>, after: Coord<f64>, w0: f64, w1: f64) -> Option<Vec<[f64; 2]>> {
+fn reflex_fill(
+    before: Coord<f64>,
+    v: Coord<f64>,
+    after: Coord<f64>,
+    w0: f64,
+    w1: f64,
+) -> Option<Vec<[f64; 2]>> {
     let (d0, d1) = (unit(v - before), unit(after - v));
     let t = turn(d0, d1);
     if t >= -1e-6 || w0 <= 0.0 || w1 <= 0.0 {
@@ -83,7 +102,10 @@ fn reflex_fill(before: Coord<f64>, v: Coord<f64>, after: Coord<f64>, w0: f64, w1
         let mut k = 1.0;
         while k < steps {
             let angle = -t * k / steps;
-            let n = at(n1.x * angle.cos() - n1.y * angle.sin(), n1.x * angle.sin() + n1.y * angle.cos());
+            let n = at(
+                n1.x * angle.cos() - n1.y * angle.sin(),
+                n1.x * angle.sin() + n1.y * angle.cos(),
+            );
             ring.push(v + n * (w1 + (w0 - w1) * k / steps));
             k += 1.0;
         }
@@ -102,9 +124,18 @@ pub(crate) fn difference(subject: &[Vec<Vec<[f64; 2]>>], clip: &[Vec<[f64; 2]>])
 }
 
 /// A boolean operation with the options that give valid polygons.
-pub(crate) fn boolean(subject: &[Vec<Vec<[f64; 2]>>], clip: &[Vec<[f64; 2]>], rule: OverlayRule) -> Shapes {
-    FloatOverlay::<[f64; 2], i64>::from_subj_and_clip_custom(subject, clip, OverlayOptions::ogc(), Solver::default())
-        .overlay(rule, FillRule::NonZero)
+pub(crate) fn boolean(
+    subject: &[Vec<Vec<[f64; 2]>>],
+    clip: &[Vec<[f64; 2]>],
+    rule: OverlayRule,
+) -> Shapes {
+    FloatOverlay::<[f64; 2], i64>::from_subj_and_clip_custom(
+        subject,
+        clip,
+        OverlayOptions::ogc(),
+        Solver::default(),
+    )
+    .overlay(rule, FillRule::NonZero)
 }
 
 /// A cleaned plot with its sides, or `None` if nothing is left of it.
@@ -135,7 +166,8 @@ fn with_changes(region: &Region, mut ring: Vec<Coord<f64>>) -> Vec<Coord<f64>> {
             }
             let p = l.points[i];
             let count = ring.len();
-            let on = (0..count).find(|&k| dist(nearest_on(ring[k], ring[(k + 1) % count], p).0, p) < 1e-3);
+            let on = (0..count)
+                .find(|&k| dist(nearest_on(ring[k], ring[(k + 1) % count], p).0, p) < 1e-3);
             if let Some(k) = on {
                 if dist(ring[k], p) > 0.01 && dist(ring[(k + 1) % count], p) > 0.01 {
                     ring.insert(k + 1, p);
@@ -195,10 +227,16 @@ fn label(region: &Region, ring: &[Coord<f64>]) -> Vec<PlotSide> {
                     best = (off, Some(side));
                 }
             }
-            best.1.map_or(PlotSide { access: false, street: false }, |side| PlotSide {
-                access: side.access,
-                street: side.kind == SideKind::Street,
-            })
+            best.1.map_or(
+                PlotSide {
+                    access: false,
+                    street: false,
+                },
+                |side| PlotSide {
+                    access: side.access,
+                    street: side.kind == SideKind::Street,
+                },
+            )
         })
         .collect()
 }
@@ -213,17 +251,32 @@ impl Plot {
         let hole = &self.rings[1];
         let centre = hole.iter().fold(at(0.0, 0.0), |s, &p| s + p) / hole.len() as f64;
         // Cut across the hole along its long direction's normal: short cuts.
-        let far = hole.iter().copied().max_by(|a, b| dist(*a, centre).total_cmp(&dist(*b, centre))).unwrap_or(centre);
+        let far = hole
+            .iter()
+            .copied()
+            .max_by(|a, b| dist(*a, centre).total_cmp(&dist(*b, centre)))
+            .unwrap_or(centre);
         let axis = unit(left(far - centre));
-        let reach = 4.0 * self.rings[0].iter().map(|&p| dist(p, centre)).fold(1.0, f64::max);
+        let reach = 4.0
+            * self.rings[0]
+                .iter()
+                .map(|&p| dist(p, centre))
+                .fold(1.0, f64::max);
         let subject: Vec<Vec<[f64; 2]>> = self.rings.iter().map(|r| ring_of(r)).collect();
         [1.0, -1.0]
             .into_iter()
             .flat_map(|sign| {
-                let (a, b) = (centre - axis * (reach * sign), centre + axis * (reach * sign));
+                let (a, b) = (
+                    centre - axis * (reach * sign),
+                    centre + axis * (reach * sign),
+                );
                 let deep = left(axis) * (reach * sign);
                 let half = ring_of(&[a, b, b + deep, a + deep]);
-                boolean(std::slice::from_ref(&subject), &[half], OverlayRule::Intersect)
+                boolean(
+                    std::slice::from_ref(&subject),
+                    &[half],
+                    OverlayRule::Intersect,
+                )
             })
             .filter_map(|shape| plot(region, shape))
             .flat_map(|p| p.without_holes(region))

@@ -41,8 +41,8 @@ mod segments;
 pub mod site;
 pub mod splitter;
 
-pub use geo_types;
 pub use error::{Error, Result};
+pub use geo_types;
 pub use layout::Layout;
 pub use options::{FieldKind, PlanOptions, ScoreWeights};
 pub use plan::{generate, generate_with, standard_splitters, Plan};

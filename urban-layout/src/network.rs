@@ -82,7 +82,12 @@ pub(crate) const SNAP: f64 = 1e-3;
 const MIN_ACCESS_STRETCH: f64 = 45.0;
 
 impl Side {
-    const OUTSIDE: Self = Self { kind: SideKind::Boundary, inset: 0.0, access: false, street: None };
+    const OUTSIDE: Self = Self {
+        kind: SideKind::Boundary,
+        inset: 0.0,
+        access: false,
+        street: None,
+    };
 
     /// The side of a street of `width` metres.
     #[must_use]
@@ -110,9 +115,19 @@ impl Network {
             }
         }
         for element in &site.elements {
-            let side = Side { kind: SideKind::Element, ..Side::OUTSIDE };
-            for ring in std::iter::once(element.polygon.exterior()).chain(element.polygon.interiors()) {
-                wires.push(Wire { line: ring.clone(), left: side, right: side, priority: 1 });
+            let side = Side {
+                kind: SideKind::Element,
+                ..Side::OUTSIDE
+            };
+            for ring in
+                std::iter::once(element.polygon.exterior()).chain(element.polygon.interiors())
+            {
+                wires.push(Wire {
+                    line: ring.clone(),
+                    left: side,
+                    right: side,
+                    priority: 1,
+                });
             }
         }
         let mut streets = Vec::new();
@@ -127,12 +142,24 @@ impl Network {
             };
             let side = Side::street(u32::try_from(streets.len()).unwrap_or(u32::MAX), &info);
             streets.push(info);
-            wires.push(Wire { line: line.clone(), left: side, right: side, priority: 2 });
+            wires.push(Wire {
+                line: line.clone(),
+                left: side,
+                right: side,
+                priority: 2,
+            });
         }
-        let mesh = PlanarMesh::from_linework(&wires, SNAP).map_err(|e| Error::stage("the network of the site", e))?;
+        let mesh = PlanarMesh::from_linework(&wires, SNAP)
+            .map_err(|e| Error::stage("the network of the site", e))?;
         let entries = entries(site);
         let restricted_exits = !site.outside_streets.is_empty() || !site.roads.is_empty();
-        Ok(Self { mesh, streets, entries, zones, restricted_exits })
+        Ok(Self {
+            mesh,
+            streets,
+            entries,
+            zones,
+            restricted_exits,
+        })
     }
 
     /// Adds a street's description; its sides are made with [`Side::street`].
@@ -146,25 +173,40 @@ impl Network {
     /// What a half-edge's edge is, if it is a street.
     #[must_use]
     pub fn street_of(&self, h: HalfEdgeId) -> Option<&StreetInfo> {
-        self.mesh.attr(h).street.and_then(|s| self.streets.get(s as usize))
+        self.mesh
+            .attr(h)
+            .street
+            .and_then(|s| self.streets.get(s as usize))
     }
 
     /// The streets that meet at a vertex, as outgoing half-edges.
     pub fn streets_at(&self, v: VertexId) -> Vec<HalfEdgeId> {
-        self.mesh.outgoing(v).filter(|&h| self.mesh.attr(h).kind == SideKind::Street).collect()
+        self.mesh
+            .outgoing(v)
+            .filter(|&h| self.mesh.attr(h).kind == SideKind::Street)
+            .collect()
     }
 
     /// The vertices at which streets end on the site's boundary.
     pub fn mouths(&self) -> impl Iterator<Item = VertexId> + '_ {
         self.mesh.vertices().filter(|&v| {
-            self.mesh.outgoing(v).any(|h| self.mesh.attr(h).kind == SideKind::Boundary)
-                && self.mesh.outgoing(v).any(|h| self.mesh.attr(h).kind == SideKind::Street)
+            self.mesh
+                .outgoing(v)
+                .any(|h| self.mesh.attr(h).kind == SideKind::Boundary)
+                && self
+                    .mesh
+                    .outgoing(v)
+                    .any(|h| self.mesh.attr(h).kind == SideKind::Street)
         })
     }
 
     /// The open rings of a face, outer one first; walks where the face lies on the left.
     pub fn rings(&self, f: FaceId) -> Vec<Vec<Coord<f64>>> {
-        self.mesh.loops(f).into_iter().map(|h| self.mesh.ring(h)).collect()
+        self.mesh
+            .loops(f)
+            .into_iter()
+            .map(|h| self.mesh.ring(h))
+            .collect()
     }
 
     /// Which of the site's elements a face is, or whether it is land to lay
@@ -227,14 +269,19 @@ fn boundary_wires(ring: &LineString<f64>, zones: &AccessZones) -> Vec<Wire<Side>
     let covered: Vec<bool> = (0..n)
         .map(|i| {
             let (a, b) = (points[i].0, points[(i + 1) % n].0);
-            zones.covers(lerp(a, b, 0.5)) && zones.covers(lerp(a, b, 0.05)) && zones.covers(lerp(a, b, 0.95))
+            zones.covers(lerp(a, b, 0.5))
+                && zones.covers(lerp(a, b, 0.05))
+                && zones.covers(lerp(a, b, 0.95))
         })
         .collect();
     let access = long_runs(&points, &covered);
     (0..n)
         .map(|i| Wire {
             line: LineString(vec![points[i].0, points[(i + 1) % n].0]),
-            left: Side { access: access[i], ..Side::OUTSIDE },
+            left: Side {
+                access: access[i],
+                ..Side::OUTSIDE
+            },
             right: Side::OUTSIDE,
             priority: 3,
         })
@@ -244,7 +291,9 @@ fn boundary_wires(ring: &LineString<f64>, zones: &AccessZones) -> Vec<Wire<Side>
 /// `covered`, less its runs shorter than [`MIN_ACCESS_STRETCH`].
 fn long_runs(points: &[(Coord<f64>, bool)], covered: &[bool]) -> Vec<bool> {
     let n = covered.len();
-    let Some(start) = covered.iter().position(|&c| !c) else { return covered.to_vec() };
+    let Some(start) = covered.iter().position(|&c| !c) else {
+        return covered.to_vec();
+    };
     let mut out = vec![false; n];
     let (mut run, mut length) = (Vec::new(), 0.0);
     for k in 1..=n {
@@ -280,13 +329,22 @@ fn entries(site: &Site) -> Vec<Entry> {
             continue;
         }
         let line = &street.line.0;
-        for (end, before) in [(line.first(), line.get(1)), (line.last(), line.iter().rev().nth(1))] {
-            let (Some(&end), Some(&before)) = (end, before) else { continue };
-            let Some(hit) = grid.nearest(end, 0.5 * street.width + 6.0) else { continue };
+        for (end, before) in [
+            (line.first(), line.get(1)),
+            (line.last(), line.iter().rev().nth(1)),
+        ] {
+            let (Some(&end), Some(&before)) = (end, before) else {
+                continue;
+            };
+            let Some(hit) = grid.nearest(end, 0.5 * street.width + 6.0) else {
+                continue;
+            };
             let (inside_end, inward) = (site_contains(site, end), unit(end - before));
             // The street may end just inside or just outside: follow it to the boundary.
             let dir = if inside_end { inward * -1.0 } else { inward };
-            let at = grid.ray(end, dir, 0.0, 0.5 * street.width + 6.0).map_or(hit.point, |h| h.point);
+            let at = grid
+                .ray(end, dir, 0.0, 0.5 * street.width + 6.0)
+                .map_or(hit.point, |h| h.point);
             let probe = at + inward * 3.0;
             if site_contains(site, probe) && out.iter().all(|e| dist(e.at, at) > 12.0) {
                 out.push(Entry { at, inward });
@@ -309,7 +367,11 @@ fn extended_roads(site: &Site) -> Vec<LineString<f64>> {
         segments.extend(road.line.0.windows(2).map(|w| (w[0], w[1])));
         owners.resize(segments.len(), i);
     }
-    for polygon in site.parts.iter().chain(site.elements.iter().map(|e| &e.polygon)) {
+    for polygon in site
+        .parts
+        .iter()
+        .chain(site.elements.iter().map(|e| &e.polygon))
+    {
         for ring in std::iter::once(polygon.exterior()).chain(polygon.interiors()) {
             segments.extend(ring.0.windows(2).map(|w| (w[0], w[1])));
         }
@@ -328,7 +390,8 @@ fn extended_roads(site: &Site) -> Vec<LineString<f64>> {
                 let (before, end) = (line.0[n - 2], line.0[n - 1]);
                 let meets = segments.iter().zip(&owners).any(|(&(a, b), &owner)| {
                     let near = nearest_on(a, b, end).0;
-                    dist(near, end) < 0.5 && !(owner == i && (dist(a, end) < 0.5 || dist(b, end) < 0.5))
+                    dist(near, end) < 0.5
+                        && !(owner == i && (dist(a, end) < 0.5 || dist(b, end) < 0.5))
                 });
                 let dir = unit(end - before);
                 if !meets && dot(dir, dir) > 0.5 {

@@ -46,7 +46,14 @@ pub struct ScoreWeights {
 
 impl Default for ScoreWeights {
     fn default() -> Self {
-        Self { divergence: 1.0, boundary: 1.0, singularities: 1.0, continuity: 1.0, balance: 1.5, service: 1.0 }
+        Self {
+            divergence: 1.0,
+            boundary: 1.0,
+            singularities: 1.0,
+            continuity: 1.0,
+            balance: 1.5,
+            service: 1.0,
+        }
     }
 }
 

@@ -10,7 +10,9 @@ use crate::options::PlanOptions;
 use crate::planner::{self, seed::Path, Pending, Tree};
 use crate::progress::{Progress, Stage};
 use crate::site::Site;
-use crate::splitter::{Action, ParkFill, SkeletonParceler, Splitter, StreamlineSplitter, TemplateSplitter};
+use crate::splitter::{
+    Action, ParkFill, SkeletonParceler, Splitter, StreamlineSplitter, TemplateSplitter,
+};
 
 /// A finished plan: the layout, and the state from which regions of it can be
 /// re-rolled.
@@ -64,11 +66,23 @@ pub fn generate_with(
     let (mut tree, roots) = Tree::new(site)?;
     grow(&mut tree, site, roots, splitters, options, progress)?;
     let split = start.elapsed().as_secs_f64();
-    finish(tree, site, &Path::everything(), splitters, options, progress, split, start)
+    finish(
+        tree,
+        site,
+        &Path::everything(),
+        splitters,
+        options,
+        progress,
+        split,
+        start,
+    )
 }
 
 /// Optimises and fills what lies below `root`, and assembles the layout.
-#[allow(clippy::too_many_arguments, reason = "the state of a run, passed once from either of two callers")]
+#[allow(
+    clippy::too_many_arguments,
+    reason = "the state of a run, passed once from either of two callers"
+)]
 fn finish(
     mut tree: Tree,
     site: &Site,
@@ -88,10 +102,31 @@ fn finish(
     fill(&mut tree, root, splitters, options, progress)?;
     let filling = begin.elapsed().as_secs_f64();
     let begin = Instant::now();
-    let layout = assemble(&tree, site, options.seed, options.street_width, options.min_frontage);
-    let others = vec![("fill".to_owned(), filling), ("assemble".to_owned(), begin.elapsed().as_secs_f64())];
-    let seconds = Seconds { split, optimize, total: start.elapsed().as_secs_f64(), others, ..Seconds::default() };
-    Ok(Plan { layout, seconds, tree, site: site.clone(), options: options.clone() })
+    let layout = assemble(
+        &tree,
+        site,
+        options.seed,
+        options.street_width,
+        options.min_frontage,
+    );
+    let others = vec![
+        ("fill".to_owned(), filling),
+        ("assemble".to_owned(), begin.elapsed().as_secs_f64()),
+    ];
+    let seconds = Seconds {
+        split,
+        optimize,
+        total: start.elapsed().as_secs_f64(),
+        others,
+        ..Seconds::default()
+    };
+    Ok(Plan {
+        layout,
+        seconds,
+        tree,
+        site: site.clone(),
+        options: options.clone(),
+    })
 }
 
 /// Splits regions to the end, and joins the network.
@@ -120,17 +155,28 @@ fn fill(
     if !progress.report(Stage::Fill, 0.0) {
         return Err(Error::cancelled());
     }
-    let leaves: Vec<_> = tree.leaves.values().filter(|l| l.path.is_within(root)).cloned().collect();
+    let leaves: Vec<_> = tree
+        .leaves
+        .values()
+        .filter(|l| l.path.is_within(root))
+        .cloned()
+        .collect();
     let filled = planner::parallel::map(&leaves, |leaf| {
         let region = tree.region(leaf.face, &leaf.path, options.seed);
-        let scene = crate::splitter::Scene { network: &tree.network, options, draft: false };
+        let scene = crate::splitter::Scene {
+            network: &tree.network,
+            options,
+            draft: false,
+        };
         let first = splitters.iter().filter(|s| s.name() == leaf.lineage.by);
         let rest = splitters.iter().filter(|s| s.name() != leaf.lineage.by);
         first.chain(rest).find_map(|s| {
-            s.propose(&scene, &region).into_iter().find_map(|p| match p.action {
-                Action::Fill(fill) => Some((fill, p.lineage)),
-                Action::Cut(_) => None,
-            })
+            s.propose(&scene, &region)
+                .into_iter()
+                .find_map(|p| match p.action {
+                    Action::Fill(fill) => Some((fill, p.lineage)),
+                    Action::Cut(_) => None,
+                })
         })
     });
     for (mut leaf, filled) in leaves.into_iter().zip(filled) {
@@ -149,16 +195,31 @@ fn validate(options: &PlanOptions) -> Result<()> {
         ("parcel-length", options.parcel_length, 5.0, 500.0),
         ("parcel-width", options.parcel_width, 3.0, 500.0),
         ("street-width", options.street_width, 2.0, 100.0),
-        ("min-frontage", options.min_frontage, 0.0, options.parcel_width),
-        ("block-length", options.block_length, 2.0 * options.parcel_width, 10_000.0),
+        (
+            "min-frontage",
+            options.min_frontage,
+            0.0,
+            options.parcel_width,
+        ),
+        (
+            "block-length",
+            options.block_length,
+            2.0 * options.parcel_width,
+            10_000.0,
+        ),
     ];
     for (name, value, low, high) in lengths {
         if !(low..=high).contains(&value) {
-            return Err(Error::usage(format!("{name} is {value} m; it must lie between {low} and {high} m")));
+            return Err(Error::usage(format!(
+                "{name} is {value} m; it must lie between {low} and {high} m"
+            )));
         }
     }
     if !(options.temperature >= 0.0 && options.temperature.is_finite()) {
-        return Err(Error::usage(format!("temperature is {}; it must be 0 or more", options.temperature)));
+        return Err(Error::usage(format!(
+            "temperature is {}; it must be 0 or more",
+            options.temperature
+        )));
     }
     Ok(())
 }
@@ -190,9 +251,24 @@ impl Plan {
         let mut tree = self.tree.clone();
         let pending = planner::clear(&mut tree, path)?;
         tree.rerolled.insert(path.clone(), seed);
-        planner::split(&mut tree, vec![pending], &splitters, &self.options, progress)?;
+        planner::split(
+            &mut tree,
+            vec![pending],
+            &splitters,
+            &self.options,
+            progress,
+        )?;
         let split = start.elapsed().as_secs_f64();
-        finish(tree, &self.site, path, &splitters, &self.options, progress, split, start)
+        finish(
+            tree,
+            &self.site,
+            path,
+            &splitters,
+            &self.options,
+            progress,
+            split,
+            start,
+        )
     }
 
     /// The split tree and network behind the layout.

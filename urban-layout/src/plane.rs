@@ -58,12 +58,21 @@ pub(crate) fn turn(a: Coord<f64>, b: Coord<f64>) -> f64 {
 pub(crate) fn nearest_on(a: Coord<f64>, b: Coord<f64>, p: Coord<f64>) -> (Coord<f64>, f64) {
     let d = b - a;
     let square = dot(d, d);
-    let t = if square > 0.0 { (dot(p - a, d) / square).clamp(0.0, 1.0) } else { 0.0 };
+    let t = if square > 0.0 {
+        (dot(p - a, d) / square).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
     (lerp(a, b, t), t)
 }
 
 /// Where ray `from + s * dir` meets segment `a b`: the ray parameter `s >= 0`.
-pub(crate) fn ray_hit(from: Coord<f64>, dir: Coord<f64>, a: Coord<f64>, b: Coord<f64>) -> Option<f64> {
+pub(crate) fn ray_hit(
+    from: Coord<f64>,
+    dir: Coord<f64>,
+    a: Coord<f64>,
+    b: Coord<f64>,
+) -> Option<f64> {
     let d = b - a;
     let det = cross(dir, d);
     if det.abs() < 1e-12 * norm(dir) * norm(d) {
@@ -77,9 +86,13 @@ pub(crate) fn ray_hit(from: Coord<f64>, dir: Coord<f64>, a: Coord<f64>, b: Coord
 /// Twice the signed area would be the sum; this is the signed area, positive
 /// counter-clockwise, of an open ring.
 pub(crate) fn signed_area(ring: &[Coord<f64>]) -> f64 {
-    let Some(&origin) = ring.first() else { return 0.0 };
+    let Some(&origin) = ring.first() else {
+        return 0.0;
+    };
     let n = ring.len();
-    0.5 * (0..n).map(|i| cross(ring[i] - origin, ring[(i + 1) % n] - origin)).sum::<f64>()
+    0.5 * (0..n)
+        .map(|i| cross(ring[i] - origin, ring[(i + 1) % n] - origin))
+        .sum::<f64>()
 }
 
 /// Whether `p` lies inside the open ring (even-odd; points on it either way).
@@ -116,7 +129,11 @@ pub(crate) fn resample(line: &[Coord<f64>], step: f64) -> Vec<Coord<f64>> {
             segment += 1;
         }
         let d = dist(line[segment], line[segment + 1]);
-        let t = if d > 0.0 { ((target - before) / d).clamp(0.0, 1.0) } else { 0.0 };
+        let t = if d > 0.0 {
+            ((target - before) / d).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
         out.push(lerp(line[segment], line[segment + 1], t));
     }
     out.push(line[line.len() - 1]);
@@ -145,14 +162,20 @@ pub(crate) fn simplify(line: &[Coord<f64>], tolerance: f64) -> Vec<Coord<f64>> {
             }
         }
     }
-    line.iter().zip(&keep).filter(|(_, &k)| k).map(|(&p, _)| p).collect()
+    line.iter()
+        .zip(&keep)
+        .filter(|(_, &k)| k)
+        .map(|(&p, _)| p)
+        .collect()
 }
 
 /// A point well inside a polygon given by open rings (outer and holes alike):
 /// the middle of the longest chord among a few scan lines.
 pub(crate) fn inner_point(rings: &[Vec<Coord<f64>>]) -> Option<Coord<f64>> {
     let ys = rings.iter().flatten().map(|p| p.y);
-    let (low, high) = ys.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
+    let (low, high) = ys.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| {
+        (l.min(y), h.max(y))
+    });
     let mut best: Option<(f64, Coord<f64>)> = None;
     for k in 0..15 {
         // Irrational-looking fractions, so that lines rarely pass through vertices.
@@ -185,13 +208,19 @@ mod tests {
     fn resampling_keeps_ends_and_spacing() {
         let line = [at(0.0, 0.0), at(10.0, 0.0), at(10.0, 5.0)];
         let out = resample(&line, 5.0);
-        assert_eq!(out, vec![at(0.0, 0.0), at(5.0, 0.0), at(10.0, 0.0), at(10.0, 5.0)]);
+        assert_eq!(
+            out,
+            vec![at(0.0, 0.0), at(5.0, 0.0), at(10.0, 0.0), at(10.0, 5.0)]
+        );
     }
 
     #[test]
     fn simplification_keeps_what_matters() {
         let line = [at(0.0, 0.0), at(5.0, 0.01), at(10.0, 0.0), at(10.0, 5.0)];
-        assert_eq!(simplify(&line, 0.1), vec![at(0.0, 0.0), at(10.0, 0.0), at(10.0, 5.0)]);
+        assert_eq!(
+            simplify(&line, 0.1),
+            vec![at(0.0, 0.0), at(10.0, 0.0), at(10.0, 5.0)]
+        );
         assert_eq!(simplify(&line, 0.001).len(), 4);
     }
 
@@ -205,7 +234,13 @@ mod tests {
 
     #[test]
     fn rays_meet_segments() {
-        assert_eq!(ray_hit(at(0.0, 0.0), at(1.0, 0.0), at(3.0, -1.0), at(3.0, 1.0)), Some(3.0));
-        assert_eq!(ray_hit(at(0.0, 0.0), at(-1.0, 0.0), at(3.0, -1.0), at(3.0, 1.0)), None);
+        assert_eq!(
+            ray_hit(at(0.0, 0.0), at(1.0, 0.0), at(3.0, -1.0), at(3.0, 1.0)),
+            Some(3.0)
+        );
+        assert_eq!(
+            ray_hit(at(0.0, 0.0), at(-1.0, 0.0), at(3.0, -1.0), at(3.0, 1.0)),
+            None
+        );
     }
 }

@@ -91,15 +91,32 @@ impl Region {
                 for i in 0..n {
                     lengths.push(lengths[i] + dist(points[i], points[(i + 1) % n]));
                 }
-                let slits = half_edges.iter().map(|&h| mesh.face(mesh.twin(h)) == face).collect();
-                let mut out = Loop { half_edges, points, sides, vertices, lengths, slits, nodes: Vec::new() };
+                let slits = half_edges
+                    .iter()
+                    .map(|&h| mesh.face(mesh.twin(h)) == face)
+                    .collect();
+                let mut out = Loop {
+                    half_edges,
+                    points,
+                    sides,
+                    vertices,
+                    lengths,
+                    slits,
+                    nodes: Vec::new(),
+                };
                 out.nodes = nodes(network, face, &out);
                 out
             })
             .collect();
         let area = loops.iter().map(|l| signed_area(&l.points)).sum();
         let seed = path.hash(seed);
-        Self { face, path, seed, loops, area }
+        Self {
+            face,
+            path,
+            seed,
+            loops,
+            area,
+        }
     }
 
     /// The region as a polygon; edge `i` of ring `r` is edge `i` of loop `r`.
@@ -139,12 +156,23 @@ impl Region {
     /// `towards`.
     #[must_use]
     pub fn place_facing(&self, p: Coord<f64>, towards: Coord<f64>) -> Place {
-        let mut best = (f64::INFINITY, Place { ring: 0, edge: 0, at: p });
+        let mut best = (
+            f64::INFINITY,
+            Place {
+                ring: 0,
+                edge: 0,
+                at: p,
+            },
+        );
         for (ring, l) in self.loops.iter().enumerate() {
             for edge in 0..l.points.len() {
                 let (a, b) = l.edge(edge);
                 let at = nearest_on(a, b, p).0;
-                let behind = if crate::plane::cross(b - a, towards - at) > 0.0 { 0.0 } else { 1e-6 };
+                let behind = if crate::plane::cross(b - a, towards - at) > 0.0 {
+                    0.0
+                } else {
+                    1e-6
+                };
                 if dist(at, p) + behind < best.0 {
                     best = (dist(at, p) + behind, Place { ring, edge, at });
                 }
@@ -168,7 +196,13 @@ impl Region {
     /// The long side of the rectangle of the same area and perimeter, metres.
     #[must_use]
     pub fn rectangle_length(&self) -> f64 {
-        let half = 0.5 * self.loops.first().and_then(|l| l.lengths.last()).copied().unwrap_or(0.0);
+        let half = 0.5
+            * self
+                .loops
+                .first()
+                .and_then(|l| l.lengths.last())
+                .copied()
+                .unwrap_or(0.0);
         0.5 * (half + (half * half - 4.0 * self.area).max(0.0).sqrt())
     }
 }
@@ -197,16 +231,34 @@ impl Loop {
     #[must_use]
     pub fn at(&self, position: f64) -> (usize, Coord<f64>) {
         let s = position.rem_euclid(self.length().max(f64::MIN_POSITIVE));
-        let edge = self.lengths.partition_point(|&l| l <= s).saturating_sub(1).min(self.points.len() - 1);
+        let edge = self
+            .lengths
+            .partition_point(|&l| l <= s)
+            .saturating_sub(1)
+            .min(self.points.len() - 1);
         let (a, b) = self.edge(edge);
         let d = dist(a, b);
-        (edge, lerp(a, b, if d > 0.0 { ((s - self.lengths[edge]) / d).clamp(0.0, 1.0) } else { 0.0 }))
+        (
+            edge,
+            lerp(
+                a,
+                b,
+                if d > 0.0 {
+                    ((s - self.lengths[edge]) / d).clamp(0.0, 1.0)
+                } else {
+                    0.0
+                },
+            ),
+        )
     }
 
     /// The two ends of an edge.
     #[must_use]
     pub fn edge(&self, edge: usize) -> (Coord<f64>, Coord<f64>) {
-        (self.points[edge], self.points[(edge + 1) % self.points.len()])
+        (
+            self.points[edge],
+            self.points[(edge + 1) % self.points.len()],
+        )
     }
 
     /// The nearest point of the loop, as arc length, edge and point.
@@ -234,11 +286,23 @@ fn nodes(network: &Network, face: FaceId, l: &Loop) -> Vec<Node> {
         let v = l.vertices[i];
         let streets = network.streets_at(v);
         let at = l.points[i];
-        let (before, after) = (unit(at - l.points[(i + n - 1) % n]), unit(l.points[(i + 1) % n] - at));
+        let (before, after) = (
+            unit(at - l.points[(i + n - 1) % n]),
+            unit(l.points[(i + 1) % n] - at),
+        );
         let corner = turn(before, after).abs() > CORNER_DEG.to_radians();
-        let boundary = l.sides[i].kind != SideKind::Street || l.sides[(i + n - 1) % n].kind != SideKind::Street;
-        let junction = streets.len() >= 3 || (boundary && !streets.is_empty() && streets.iter().any(|&s| mesh.face(s) != face && mesh.face(mesh.twin(s)) != face));
-        let turns_street = boundary && streets.iter().any(|&s| s == h || mesh.twin(s) == l.half_edges[(i + n - 1) % n]);
+        let boundary = l.sides[i].kind != SideKind::Street
+            || l.sides[(i + n - 1) % n].kind != SideKind::Street;
+        let junction = streets.len() >= 3
+            || (boundary
+                && !streets.is_empty()
+                && streets
+                    .iter()
+                    .any(|&s| mesh.face(s) != face && mesh.face(mesh.twin(s)) != face));
+        let turns_street = boundary
+            && streets
+                .iter()
+                .any(|&s| s == h || mesh.twin(s) == l.half_edges[(i + n - 1) % n]);
         if !(corner || junction || turns_street) {
             continue;
         }
@@ -252,7 +316,13 @@ fn nodes(network: &Network, face: FaceId, l: &Loop) -> Vec<Node> {
             [one] if !corner && streets.len() == 3 => Some(unit(at - mesh.point(mesh.dest(*one)))),
             _ => None,
         };
-        out.push(Node { position: l.lengths[i], vertex: v, at, continues, junction });
+        out.push(Node {
+            position: l.lengths[i],
+            vertex: v,
+            at,
+            continues,
+            junction,
+        });
     }
     out
 }

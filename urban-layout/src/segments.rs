@@ -41,10 +41,20 @@ impl SegmentGrid {
         let (width, height) = ((high.x - low.x).max(1e-9), (high.y - low.y).max(1e-9));
         // About one segment a cell, and never a grid much larger than its content.
         let wanted = (segments.len().max(1) as f64).clamp(1.0, 4e6);
-        let size = (width * height / wanted).sqrt().max(width.max(height) / 2048.0).max(1e-9);
+        let size = (width * height / wanted)
+            .sqrt()
+            .max(width.max(height) / 2048.0)
+            .max(1e-9);
         let columns = (width / size).floor() as i64 + 1;
         let rows = (height / size).floor() as i64 + 1;
-        let mut grid = Self { segments, cells: vec![Vec::new(); (columns * rows) as usize], low, size, columns, rows };
+        let mut grid = Self {
+            segments,
+            cells: vec![Vec::new(); (columns * rows) as usize],
+            low,
+            size,
+            columns,
+            rows,
+        };
         for i in 0..grid.segments.len() {
             let (a, b) = grid.segments[i];
             grid.enter(a, b, u32::try_from(i).unwrap_or(u32::MAX));
@@ -53,7 +63,10 @@ impl SegmentGrid {
     }
 
     fn cell_of(&self, p: Coord<f64>) -> (i64, i64) {
-        (((p.x - self.low.x) / self.size).floor() as i64, ((p.y - self.low.y) / self.size).floor() as i64)
+        (
+            ((p.x - self.low.x) / self.size).floor() as i64,
+            ((p.y - self.low.y) / self.size).floor() as i64,
+        )
     }
 
     fn cell(&self, column: i64, row: i64) -> &[u32] {
@@ -67,14 +80,25 @@ impl SegmentGrid {
     /// Puts a segment into each cell of the columns that it spans, row by row.
     fn enter(&mut self, a: Coord<f64>, b: Coord<f64>, index: u32) {
         let (p, q) = if a.x <= b.x { (a, b) } else { (b, a) };
-        let (first, last) = (self.cell_of(p).0.max(0), self.cell_of(q).0.min(self.columns - 1));
+        let (first, last) = (
+            self.cell_of(p).0.max(0),
+            self.cell_of(q).0.min(self.columns - 1),
+        );
         for column in first..=last {
             let x0 = self.low.x + column as f64 * self.size;
             let clip = |x: f64| {
-                let t = if q.x > p.x { ((x - p.x) / (q.x - p.x)).clamp(0.0, 1.0) } else { 0.0 };
+                let t = if q.x > p.x {
+                    ((x - p.x) / (q.x - p.x)).clamp(0.0, 1.0)
+                } else {
+                    0.0
+                };
                 p.y + t * (q.y - p.y)
             };
-            let (mut y0, mut y1) = if q.x > p.x { (clip(x0), clip(x0 + self.size)) } else { (p.y, q.y) };
+            let (mut y0, mut y1) = if q.x > p.x {
+                (clip(x0), clip(x0 + self.size))
+            } else {
+                (p.y, q.y)
+            };
             if y0 > y1 {
                 std::mem::swap(&mut y0, &mut y1);
             }
@@ -89,7 +113,13 @@ impl SegmentGrid {
 
     /// The first segment that the ray from `from` along the unit vector `dir`
     /// meets farther than `least` and no farther than `most`.
-    pub(crate) fn ray(&self, from: Coord<f64>, dir: Coord<f64>, least: f64, most: f64) -> Option<Hit> {
+    pub(crate) fn ray(
+        &self,
+        from: Coord<f64>,
+        dir: Coord<f64>,
+        least: f64,
+        most: f64,
+    ) -> Option<Hit> {
         let (mut column, mut row) = self.cell_of(from);
         let step = |d: f64| if d > 0.0 { 1 } else { -1 };
         let edge = |p: f64, low: f64, cell: i64, d: f64| {
@@ -106,11 +136,18 @@ impl SegmentGrid {
                 let (a, b) = self.segments[i as usize];
                 if let Some(s) = ray_hit(from, dir, a, b) {
                     if s > least && s <= most && best.is_none_or(|h| s < h.distance) {
-                        best = Some(Hit { distance: s, segment: i as usize, point: from + dir * s });
+                        best = Some(Hit {
+                            distance: s,
+                            segment: i as usize,
+                            point: from + dir * s,
+                        });
                     }
                 }
             }
-            let (tx, ty) = (edge(from.x, self.low.x, column, dir.x), edge(from.y, self.low.y, row, dir.y));
+            let (tx, ty) = (
+                edge(from.x, self.low.x, column, dir.x),
+                edge(from.y, self.low.y, row, dir.y),
+            );
             travelled = tx.min(ty);
             if best.is_some_and(|h| h.distance <= travelled) {
                 break;
@@ -142,7 +179,9 @@ impl SegmentGrid {
         let outside = |cell: i64, count: i64| (-cell).max(cell - count + 1).max(0);
         let across = |cell: i64, count: i64| cell.abs().max((cell - count + 1).abs());
         let first = outside(column, self.columns).max(outside(row, self.rows));
-        let last = across(column, self.columns).max(across(row, self.rows)).min((most / self.size).ceil() as i64 + 1);
+        let last = across(column, self.columns)
+            .max(across(row, self.rows))
+            .min((most / self.size).ceil() as i64 + 1);
         for radius in first..=last {
             for (c, r) in shell(column, row, radius) {
                 for &i in self.cell(c, r) {
@@ -150,7 +189,11 @@ impl SegmentGrid {
                     let point = nearest_on(a, b, p).0;
                     let distance = dist(p, point);
                     if distance <= most && best.is_none_or(|h| distance < h.distance) {
-                        best = Some(Hit { distance, segment: i as usize, point });
+                        best = Some(Hit {
+                            distance,
+                            segment: i as usize,
+                            point,
+                        });
                     }
                 }
             }
@@ -176,7 +219,11 @@ fn shell(column: i64, row: i64, radius: i64) -> impl Iterator<Item = (i64, i64)>
             (column - radius + (k - side), row + radius)
         } else {
             let j = k - 2 * side;
-            let x = if j % 2 == 0 { column - radius } else { column + radius };
+            let x = if j % 2 == 0 {
+                column - radius
+            } else {
+                column + radius
+            };
             (x, row - radius + 1 + j / 2)
         }
     })
@@ -197,20 +244,33 @@ mod tests {
         let segments: Vec<_> = (0..300u64)
             .map(|i| {
                 let a = at(noise(4 * i) * 100.0, noise(4 * i + 1) * 40.0);
-                (a, a + at(noise(4 * i + 2) * 10.0 - 5.0, noise(4 * i + 3) * 10.0 - 5.0))
+                (
+                    a,
+                    a + at(noise(4 * i + 2) * 10.0 - 5.0, noise(4 * i + 3) * 10.0 - 5.0),
+                )
             })
             .collect();
         let grid = SegmentGrid::new(segments.clone());
         for k in 0..400u64 {
-            let from = at(noise(9000 + 3 * k) * 140.0 - 20.0, noise(9001 + 3 * k) * 80.0 - 20.0);
+            let from = at(
+                noise(9000 + 3 * k) * 140.0 - 20.0,
+                noise(9001 + 3 * k) * 80.0 - 20.0,
+            );
             let dir = unit(at(noise(7000 + k) - 0.5, noise(8000 + k) - 0.5));
             let brute = segments
                 .iter()
                 .filter_map(|&(a, b)| ray_hit(from, dir, a, b))
                 .filter(|&s| s > 0.0 && s <= 60.0)
                 .min_by(f64::total_cmp);
-            assert_eq!(grid.ray(from, dir, 0.0, 60.0).map(|h| h.distance), brute, "ray {k}");
-            let near = segments.iter().map(|&(a, b)| dist(from, nearest_on(a, b, from).0)).min_by(f64::total_cmp);
+            assert_eq!(
+                grid.ray(from, dir, 0.0, 60.0).map(|h| h.distance),
+                brute,
+                "ray {k}"
+            );
+            let near = segments
+                .iter()
+                .map(|&(a, b)| dist(from, nearest_on(a, b, from).0))
+                .min_by(f64::total_cmp);
             let found = grid.nearest(from, 200.0).map(|h| h.distance);
             assert_eq!(found, near, "nearest {k}");
         }
@@ -219,8 +279,14 @@ mod tests {
     #[test]
     fn axis_parallel_rays_and_empty_grids() {
         let grid = SegmentGrid::new(vec![(at(5.0, -1.0), at(5.0, 1.0))]);
-        assert_eq!(grid.ray(at(0.0, 0.0), at(1.0, 0.0), 0.0, 9.0).map(|h| h.distance), Some(5.0));
+        assert_eq!(
+            grid.ray(at(0.0, 0.0), at(1.0, 0.0), 0.0, 9.0)
+                .map(|h| h.distance),
+            Some(5.0)
+        );
         assert!(grid.ray(at(0.0, 0.0), at(0.0, 1.0), 0.0, 9.0).is_none());
-        assert!(SegmentGrid::new(Vec::new()).nearest(at(0.0, 0.0), 10.0).is_none());
+        assert!(SegmentGrid::new(Vec::new())
+            .nearest(at(0.0, 0.0), 10.0)
+            .is_none());
     }
 }

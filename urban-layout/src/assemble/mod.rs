@@ -50,11 +50,21 @@ struct Spur {
 }
 
 /// The layout of a finished tree.
-pub(crate) fn assemble(tree: &Tree, site: &Site, seed: u64, street_width: f64, min_frontage: f64) -> Layout {
+pub(crate) fn assemble(
+    tree: &Tree,
+    site: &Site,
+    seed: u64,
+    street_width: f64,
+    min_frontage: f64,
+) -> Layout {
     let mut network = tree.network.clone();
     let spurs = join_spurs(&mut network, tree);
     let mut ids = Ids::default();
-    let mut layout = Layout { site: MultiPolygon(site.parts.clone()), seed, ..Layout::default() };
+    let mut layout = Layout {
+        site: MultiPolygon(site.parts.clone()),
+        seed,
+        ..Layout::default()
+    };
     let mut built: Shapes = Vec::new();
     for leaf in tree.leaves.values() {
         let region = Region::new(&tree.network, leaf.face, leaf.path.clone(), seed);
@@ -77,7 +87,11 @@ fn block_of(layout: &mut Layout, ids: &mut Ids, built: &mut Shapes, leaf: &Leaf,
         let id = ids.next(root, 1_000_000 + k);
         blocks.push(id);
         let polygon = polygon_of(&plot.rings);
-        layout.blocks.push(Block { id, polygon, lineage: leaf.lineage.clone() });
+        layout.blocks.push(Block {
+            id,
+            polygon,
+            lineage: leaf.lineage.clone(),
+        });
     }
     let mut faces = leaf.fill.faces.clone();
     if faces.is_empty() {
@@ -119,7 +133,9 @@ fn block_of(layout: &mut Layout, ids: &mut Ids, built: &mut Shapes, leaf: &Leaf,
 
 /// The block that a face lies in.
 fn block_with(plots: &[crate::inset::Plot], blocks: &[u64], ring: &[Coord<f64>]) -> u64 {
-    let Some(p) = crate::plane::inner_point(&[ring.to_vec()]) else { return blocks.first().copied().unwrap_or(0) };
+    let Some(p) = crate::plane::inner_point(&[ring.to_vec()]) else {
+        return blocks.first().copied().unwrap_or(0);
+    };
     plots
         .iter()
         .position(|plot| crate::plane::in_ring(&plot.rings[0], p))
@@ -156,8 +172,10 @@ fn elements(layout: &mut Layout, ids: &mut Ids, built: &mut Shapes, site: &Site)
 fn street_area(layout: &mut Layout, built: &Shapes, site: &Site) {
     let subject: Shapes = site.parts.iter().map(shape_of).collect();
     // Parcels first become whole blocks, so that no hair is left between two.
-    let clip: Vec<Vec<[f64; 2]>> =
-        boolean(built, &[], OverlayRule::Subject).into_iter().flatten().collect();
+    let clip: Vec<Vec<[f64; 2]>> = boolean(built, &[], OverlayRule::Subject)
+        .into_iter()
+        .flatten()
+        .collect();
     for shape in difference(&subject, &clip) {
         let rings: Vec<Vec<Coord<f64>>> = shape
             .iter()
@@ -173,28 +191,67 @@ fn street_area(layout: &mut Layout, built: &Shapes, site: &Site) {
 
 /// Makes neighbouring tiles share vertices; drops what has no area.
 fn sew(layout: &mut Layout, ids: &mut Ids) {
-    let mut polygons: Vec<Polygon<f64>> = layout.tiles.iter().map(|t| t.polygon.clone()).collect();
+    let (paved, built): (Vec<Tile>, Vec<Tile>) = std::mem::take(&mut layout.tiles)
+        .into_iter()
+        .partition(|t| t.kind == TileKind::StreetArea);
+    let mut polygons: Vec<Polygon<f64>> = built.iter().map(|t| t.polygon.clone()).collect();
+    // The streets' land ring by ring: where its rings come to touch, they are
+    // linked anew below.
+    let mut is_hole = Vec::new();
+    for tile in &paved {
+        polygons.push(Polygon::new(tile.polygon.exterior().clone(), Vec::new()));
+        is_hole.push(false);
+        for hole in tile.polygon.interiors() {
+            polygons.push(Polygon::new(reversed(hole), Vec::new()));
+            is_hole.push(true);
+        }
+    }
     let report = seam_to(&mut polygons, &layout.site, SEAM);
     let gone: BTreeSet<usize> = report.collapsed.into_iter().collect();
-    let tiles = std::mem::take(&mut layout.tiles);
-    layout.tiles = tiles
+    let rings = polygons.split_off(built.len());
+    layout.tiles = built
         .into_iter()
         .zip(polygons)
         .enumerate()
         .filter(|(i, _)| !gone.contains(i))
         .map(|(_, (tile, polygon))| Tile { polygon, ..tile })
         .collect();
-    // The streets' land once more, now that it shares its vertices.
-    let (paved, mut tiles): (Vec<Tile>, Vec<Tile>) =
-        std::mem::take(&mut layout.tiles).into_iter().partition(|t| t.kind == TileKind::StreetArea);
-    for (k, polygon) in outline::without_hairs(paved.iter().map(|t| &t.polygon)).into_iter().enumerate() {
-        tiles.push(Tile { id: ids.next(mix(0x57ee7), k), ..street_tile(polygon) });
+    let directed: Vec<Polygon<f64>> = rings
+        .into_iter()
+        .zip(is_hole)
+        .map(|(ring, hole)| {
+            let flip = |r: &LineString<f64>| if hole { reversed(r) } else { r.clone() };
+            Polygon::new(
+                flip(ring.exterior()),
+                ring.interiors().iter().map(flip).collect(),
+            )
+        })
+        .collect();
+    for (k, polygon) in outline::without_hairs(directed.iter())
+        .into_iter()
+        .enumerate()
+    {
+        layout.tiles.push(Tile {
+            id: ids.next(mix(0x57ee7), k),
+            ..street_tile(polygon)
+        });
     }
-    layout.tiles = tiles;
+}
+
+fn reversed(ring: &LineString<f64>) -> LineString<f64> {
+    LineString(ring.0.iter().rev().copied().collect())
 }
 
 fn street_tile(polygon: Polygon<f64>) -> Tile {
-    Tile { id: 0, kind: TileKind::StreetArea, polygon, label: None, parcel: None, lineage: None, given: false }
+    Tile {
+        id: 0,
+        kind: TileKind::StreetArea,
+        polygon,
+        label: None,
+        parcel: None,
+        lineage: None,
+        given: false,
+    }
 }
 
 /// Joins the streets inside blocks to the centrelines of the network.
@@ -202,19 +259,33 @@ fn join_spurs(network: &mut Network, tree: &Tree) -> Vec<Spur> {
     let mut out = Vec::new();
     for leaf in tree.leaves.values() {
         for line in &leaf.fill.streets {
-            let Some(&start) = line.0.first() else { continue };
+            let Some(&start) = line.0.first() else {
+                continue;
+            };
             let mut best: Option<(f64, HalfEdgeId, Coord<f64>)> = None;
-            for h in network.mesh.loops(leaf.face).into_iter().flat_map(|l| network.mesh.walk(l).collect::<Vec<_>>()) {
+            for h in network
+                .mesh
+                .loops(leaf.face)
+                .into_iter()
+                .flat_map(|l| network.mesh.walk(l).collect::<Vec<_>>())
+            {
                 if !network.mesh.attr(h).access || network.mesh.attr(h).kind != SideKind::Street {
                     continue;
                 }
-                let p = nearest_on(network.mesh.point(network.mesh.origin(h)), network.mesh.point(network.mesh.dest(h)), start).0;
+                let p = nearest_on(
+                    network.mesh.point(network.mesh.origin(h)),
+                    network.mesh.point(network.mesh.dest(h)),
+                    start,
+                )
+                .0;
                 if best.is_none_or(|b| dist(p, start) < b.0) {
                     best = Some((dist(p, start), h, p));
                 }
             }
             let Some((_, h, p)) = best else { continue };
-            let near = [network.mesh.origin(h), network.mesh.dest(h)].into_iter().find(|&v| dist(network.mesh.point(v), p) < 0.5);
+            let near = [network.mesh.origin(h), network.mesh.dest(h)]
+                .into_iter()
+                .find(|&v| dist(network.mesh.point(v), p) < 0.5);
             let from = match near {
                 Some(v) => v,
                 None => match network.mesh.split_edge(h, p) {
@@ -224,14 +295,24 @@ fn join_spurs(network: &mut Network, tree: &Tree) -> Vec<Spur> {
             };
             let mut points = vec![network.mesh.point(from)];
             points.extend(line.0.iter().copied());
-            out.push(Spur { from, points, lineage: leaf.lineage.clone() });
+            out.push(Spur {
+                from,
+                points,
+                lineage: leaf.lineage.clone(),
+            });
         }
     }
     out
 }
 
 /// The streets between junctions.
-fn streets(layout: &mut Layout, ids: &mut Ids, network: &Network, spurs: &[Spur], street_width: f64) {
+fn streets(
+    layout: &mut Layout,
+    ids: &mut Ids,
+    network: &Network,
+    spurs: &[Spur],
+    street_width: f64,
+) {
     let mesh = &network.mesh;
     let mut degree: BTreeMap<VertexId, usize> = BTreeMap::new();
     let mut lines: Vec<(Vec<VertexId>, u32)> = Vec::new();
@@ -253,7 +334,13 @@ fn streets(layout: &mut Layout, ids: &mut Ids, network: &Network, spurs: &[Spur]
             if v == chain[0] || ends_chain(v) {
                 break;
             }
-            let Some(on) = network.streets_at(v).into_iter().find(|&o| o != mesh.twin(h)) else { break };
+            let Some(on) = network
+                .streets_at(v)
+                .into_iter()
+                .find(|&o| o != mesh.twin(h))
+            else {
+                break;
+            };
             h = on;
         }
         lines.push((chain, mesh.attr(start).street.unwrap_or(0)));
@@ -285,7 +372,9 @@ fn streets(layout: &mut Layout, ids: &mut Ids, network: &Network, spurs: &[Spur]
     }
     let mut pieces: BTreeMap<u64, usize> = BTreeMap::new();
     for (chain, street) in lines {
-        let Some(info) = network.streets.get(street as usize) else { continue };
+        let Some(info) = network.streets.get(street as usize) else {
+            continue;
+        };
         let root = street_root(info, street);
         let piece = pieces.entry(root).or_default();
         let id = ids.next(root, 2_000_000 + *piece);
@@ -303,9 +392,15 @@ fn streets(layout: &mut Layout, ids: &mut Ids, network: &Network, spurs: &[Spur]
         });
     }
     for (k, spur) in spurs.iter().enumerate() {
-        let Some(&end) = spur.points.last() else { continue };
+        let Some(&end) = spur.points.last() else {
+            continue;
+        };
         let to = ids.next(place_hash(end), 0);
-        layout.junctions.push(Junction { id: to, at: end, degree: 1 });
+        layout.junctions.push(Junction {
+            id: to,
+            at: end,
+            degree: 1,
+        });
         let root = Path::parse(&spur.lineage.split).map_or(k as u64, |p| p.hash(1));
         layout.streets.push(Street {
             id: ids.next(root, 3_000_000 + k),
@@ -326,10 +421,15 @@ fn same_street(network: &Network, a: HalfEdgeId, b: HalfEdgeId) -> bool {
     match (network.street_of(a), network.street_of(b)) {
         (Some(p), Some(q)) => {
             let straight = turn(
-                network.mesh.point(network.mesh.origin(a)) - network.mesh.point(network.mesh.dest(a)),
-                network.mesh.point(network.mesh.dest(b)) - network.mesh.point(network.mesh.origin(b)),
+                network.mesh.point(network.mesh.origin(a))
+                    - network.mesh.point(network.mesh.dest(a)),
+                network.mesh.point(network.mesh.dest(b))
+                    - network.mesh.point(network.mesh.origin(b)),
             );
-            p.class == q.class && p.width == q.width && p.given == q.given && (p.given || straight.abs() < 0.8)
+            p.class == q.class
+                && p.width == q.width
+                && p.given == q.given
+                && (p.given || straight.abs() < 0.8)
         }
         _ => false,
     }
@@ -374,6 +474,12 @@ pub(crate) fn polygon_of(rings: &[Vec<Coord<f64>>]) -> Polygon<f64> {
 pub(crate) fn shape_of(polygon: &Polygon<f64>) -> Vec<Vec<[f64; 2]>> {
     std::iter::once(polygon.exterior())
         .chain(polygon.interiors())
-        .map(|ring| ring.0.iter().take(ring.0.len().saturating_sub(1)).map(|p| [p.x, p.y]).collect())
+        .map(|ring| {
+            ring.0
+                .iter()
+                .take(ring.0.len().saturating_sub(1))
+                .map(|p| [p.x, p.y])
+                .collect()
+        })
         .collect()
 }

@@ -23,7 +23,9 @@ fn point(k: Key) -> Coord<f64> {
 
 /// The same land without hairs: every edge that is walked both ways goes, and
 /// the rest forms polygons whose rings do not touch themselves.
-pub(crate) fn without_hairs<'a>(polygons: impl Iterator<Item = &'a Polygon<f64>>) -> Vec<Polygon<f64>> {
+pub(crate) fn without_hairs<'a>(
+    polygons: impl Iterator<Item = &'a Polygon<f64>>,
+) -> Vec<Polygon<f64>> {
     let mut next: BTreeMap<Key, Vec<Key>> = BTreeMap::new();
     for polygon in polygons {
         for ring in std::iter::once(polygon.exterior()).chain(polygon.interiors()) {
@@ -32,7 +34,9 @@ pub(crate) fn without_hairs<'a>(polygons: impl Iterator<Item = &'a Polygon<f64>>
                 if a == b {
                     continue;
                 }
-                let back = next.get_mut(&b).and_then(|out| out.iter().position(|&c| c == a).map(|i| out.swap_remove(i)));
+                let back = next
+                    .get_mut(&b)
+                    .and_then(|out| out.iter().position(|&c| c == a).map(|i| out.swap_remove(i)));
                 if back.is_none() {
                     next.entry(a).or_default().push(b);
                 }
@@ -46,7 +50,9 @@ pub(crate) fn without_hairs<'a>(polygons: impl Iterator<Item = &'a Polygon<f64>>
             let mut chain = vec![start, first];
             while chain[chain.len() - 1] != start {
                 let (u, v) = (chain[chain.len() - 2], chain[chain.len() - 1]);
-                let Some(w) = take_leftmost(&mut next, u, v) else { break };
+                let Some(w) = take_leftmost(&mut next, u, v) else {
+                    break;
+                };
                 chain.push(w);
             }
             if chain.pop() == Some(start) {
@@ -92,12 +98,17 @@ fn nest(rings: Vec<Vec<Coord<f64>>>) -> Vec<Polygon<f64>> {
     }
     outer.sort_by(|a, b| a.0.total_cmp(&b.0));
     for hole in holes {
-        let Some(p) = inner_point(std::slice::from_ref(&hole)) else { continue };
+        let Some(p) = inner_point(std::slice::from_ref(&hole)) else {
+            continue;
+        };
         if let Some((_, rings)) = outer.iter_mut().find(|(_, rings)| in_ring(&rings[0], p)) {
             rings.push(hole);
         }
     }
-    outer.into_iter().map(|(_, rings)| polygon_of(&rings)).collect()
+    outer
+        .into_iter()
+        .map(|(_, rings)| polygon_of(&rings))
+        .collect()
 }
 
 #[cfg(test)]
@@ -124,10 +135,23 @@ mod tests {
 
     #[test]
     fn a_hole_that_touches_the_outline_at_a_point_stays_a_hole() {
-        let ring = vec![(0., 0.), (9., 0.), (9., 9.), (0., 9.), (0., 5.), (2., 6.), (2., 4.), (0., 5.), (0., 0.)];
+        let ring = vec![
+            (0., 0.),
+            (9., 0.),
+            (9., 9.),
+            (0., 9.),
+            (0., 5.),
+            (2., 6.),
+            (2., 4.),
+            (0., 5.),
+            (0., 0.),
+        ];
         let pinched = Polygon::new(LineString::from(ring), vec![]);
         let out = without_hairs(std::iter::once(&pinched));
         assert_eq!(out.len(), 1);
-        assert_eq!((out[0].exterior().0.len(), out[0].interiors().len()), (6, 1));
+        assert_eq!(
+            (out[0].exterior().0.len(), out[0].interiors().len()),
+            (6, 1)
+        );
     }
 }

@@ -115,7 +115,8 @@ impl<'a> Network<'a> {
 
     /// Component of a street.
     pub(crate) fn component_of(&self, street: &Street) -> Option<usize> {
-        self.number(street.from).map(|number| self.nodes[number].component)
+        self.number(street.from)
+            .map(|number| self.nodes[number].component)
     }
 
     /// Whether a street belongs to a component that leads out.

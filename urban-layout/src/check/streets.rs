@@ -90,7 +90,10 @@ fn given_sets(network: &Network<'_>) -> Vec<Option<usize>> {
                 .filter(|e| network.streets[e.street].given)
             {
                 let street = &network.streets[end.street];
-                for other in [street.from, street.to].into_iter().filter_map(|id| network.number(id)) {
+                for other in [street.from, street.to]
+                    .into_iter()
+                    .filter_map(|id| network.number(id))
+                {
                     if set[other].is_none() {
                         set[other] = Some(start);
                         stack.push(other);

@@ -34,12 +34,22 @@ pub(super) fn connect(tree: &mut Tree, site: &Site, options: &PlanOptions) -> Ve
         let open: Vec<Pending> = out
             .iter()
             .cloned()
-            .chain(tree.leaves.values().map(|l| Pending::new(l.face, l.path.clone())))
+            .chain(
+                tree.leaves
+                    .values()
+                    .map(|l| Pending::new(l.face, l.path.clone())),
+            )
             .collect();
         let found = super::parallel::map(&open, |p| {
             let region = tree.region(p.face, &p.path, options.seed);
             let home = region.loops.first().and_then(|l| {
-                let inner = crate::plane::inner_point(&region.loops.iter().map(|l| l.points.clone()).collect::<Vec<_>>());
+                let inner = crate::plane::inner_point(
+                    &region
+                        .loops
+                        .iter()
+                        .map(|l| l.points.clone())
+                        .collect::<Vec<_>>(),
+                );
                 let p = inner.or(l.points.first().copied())?;
                 site.parts.iter().position(|q| crate::network::inside(q, p))
             });
@@ -56,8 +66,21 @@ pub(super) fn connect(tree: &mut Tree, site: &Site, options: &PlanOptions) -> Ve
         let mut joined = false;
         for (_, i, cuts) in order {
             let p = &open[i];
-            let lineage = Lineage { split: p.path.to_string(), by: "connector".to_owned(), ..Lineage::default() };
-            let laid = cuts.iter().find_map(|cut| apply(tree, p, std::slice::from_ref(cut), &lineage, options, CutMaker::TIGHT - 0.05));
+            let lineage = Lineage {
+                split: p.path.to_string(),
+                by: "connector".to_owned(),
+                ..Lineage::default()
+            };
+            let laid = cuts.iter().find_map(|cut| {
+                apply(
+                    tree,
+                    p,
+                    std::slice::from_ref(cut),
+                    &lineage,
+                    options,
+                    CutMaker::TIGHT - 0.05,
+                )
+            });
             if let Some(children) = laid {
                 tree.leaves.remove(&p.path);
                 out.retain(|q| q.path != p.path);
@@ -97,7 +120,11 @@ impl Components {
             while let Some(v) = stack.pop() {
                 leads |= is_exit(network, v);
                 let p = mesh.point(v);
-                home = site.parts.iter().position(|q| crate::network::inside(q, p)).unwrap_or(home);
+                home = site
+                    .parts
+                    .iter()
+                    .position(|q| crate::network::inside(q, p))
+                    .unwrap_or(home);
                 for h in network.streets_at(v) {
                     let w = mesh.dest(h);
                     if of.insert(w, id).is_none() {
@@ -113,18 +140,24 @@ impl Components {
 
     /// One component in each part of the site, each leading out.
     fn satisfied(&self, parts: usize) -> bool {
-        (0..parts).all(|p| self.part.iter().filter(|&&q| q == p).count() == 1) && self.out.iter().all(|&o| o)
+        (0..parts).all(|p| self.part.iter().filter(|&&q| q == p).count() == 1)
+            && self.out.iter().all(|&o| o)
     }
 }
 
 /// Whether a street that ends at this vertex leads out of the site.
 fn is_exit(network: &Network, v: VertexId) -> bool {
     let mesh = &network.mesh;
-    let on_boundary = mesh.outgoing(v).any(|h| mesh.attr(h).kind == SideKind::Boundary);
+    let on_boundary = mesh
+        .outgoing(v)
+        .any(|h| mesh.attr(h).kind == SideKind::Boundary);
     if !on_boundary {
         return false;
     }
-    let given = network.streets_at(v).iter().any(|&h| network.street_of(h).is_some_and(|s| s.given));
+    let given = network
+        .streets_at(v)
+        .iter()
+        .any(|&h| network.street_of(h).is_some_and(|s| s.given));
     given || !network.restricted_exits || network.zones.covers(mesh.point(v))
 }
 
@@ -158,22 +191,39 @@ fn best_link(
             };
             if wanted {
                 let along = crate::plane::unit(b.place.at - a.place.at);
-                let skew = 2.0 - crate::plane::dot(along, a.inward) + crate::plane::dot(along, b.inward);
-                let path = Path2 { from: a.place, to: b.place, points: vec![a.place.at, b.place.at] };
+                let skew =
+                    2.0 - crate::plane::dot(along, a.inward) + crate::plane::dot(along, b.inward);
+                let path = Path2 {
+                    from: a.place,
+                    to: b.place,
+                    points: vec![a.place.at, b.place.at],
+                };
                 // A first street should have land on both sides.
-                let lopsided = if first { 10.0 * crate::splitter::imbalance(region, &path) } else { 0.0 };
+                let lopsided = if first {
+                    10.0 * crate::splitter::imbalance(region, &path)
+                } else {
+                    0.0
+                };
                 pairs.push((dist(a.place.at, b.place.at) * (1.0 + skew + lopsided), i, j));
             }
         }
     }
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
-    let scene = Scene { network, options, draft: true };
+    let scene = Scene {
+        network,
+        options,
+        draft: true,
+    };
     let maker = CutMaker::new(&scene, region).without_room();
     let mut cuts = Vec::new();
     let mut cost = None;
     for (c, i, j) in pairs.into_iter().take(TRIED) {
         let (a, b) = (spots[i].place, spots[j].place);
-        if let Some(cut) = maker.make(&Path2 { from: a, to: b, points: vec![a.at, b.at] }) {
+        if let Some(cut) = maker.make(&Path2 {
+            from: a,
+            to: b,
+            points: vec![a.at, b.at],
+        }) {
             cost.get_or_insert(c);
             cuts.push(cut);
             if cuts.len() >= 4 {
@@ -217,7 +267,11 @@ fn winding_link(
     let goals: Vec<Coord<f64>> = to.iter().map(place).collect();
     let (i, j, points) = super::geodesic::path(region, &starts, &goals)?;
     let length = crate::plane::length(&points);
-    let cut = maker.make(&Path2 { from: from[i].place, to: to[j].place, points })?;
+    let cut = maker.make(&Path2 {
+        from: from[i].place,
+        to: to[j].place,
+        points,
+    })?;
     Some((cut, length))
 }
 
@@ -232,11 +286,18 @@ fn spots(network: &Network, region: &Region, components: &Components) -> Vec<Spo
                 let at = crate::plane::lerp(a, b, (k as f64 + 0.5) / n as f64);
                 let (component, exit) = match l.sides[edge].kind {
                     SideKind::Street => (components.of.get(&l.vertices[edge]).copied(), false),
-                    SideKind::Boundary => (None, !network.restricted_exits || network.zones.covers(at)),
+                    SideKind::Boundary => {
+                        (None, !network.restricted_exits || network.zones.covers(at))
+                    }
                     SideKind::Element => continue,
                 };
                 let inward = crate::plane::left(crate::plane::unit(b - a));
-                out.push(Spot { place: Place { ring, edge, at }, inward, component, exit });
+                out.push(Spot {
+                    place: Place { ring, edge, at },
+                    inward,
+                    component,
+                    exit,
+                });
             }
         }
     }

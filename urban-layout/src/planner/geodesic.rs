@@ -37,7 +37,11 @@ impl Ord for Entry {
 
 /// The cheapest path from one of `from` to one of `to`, smoothed: the indices
 /// of its two ends and its points, ends included.
-pub(super) fn path(region: &Region, from: &[Coord<f64>], to: &[Coord<f64>]) -> Option<(usize, usize, Vec<Coord<f64>>)> {
+pub(super) fn path(
+    region: &Region,
+    from: &[Coord<f64>],
+    to: &[Coord<f64>],
+) -> Option<(usize, usize, Vec<Coord<f64>>)> {
     let domain = mesh_of(region, EDGE)?;
     let points = domain.vertices();
     let (grid, _) = region.grid();

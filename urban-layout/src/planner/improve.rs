@@ -4,16 +4,17 @@
 use std::collections::BTreeSet;
 
 use network_opt::{
-    collapse_short_edges, optimize, roads, Block, FaceId, Freedom, OptimizeOptions, StripFit, VertexId,
+    collapse_short_edges, optimize, roads, Block, FaceId, Freedom, OptimizeOptions, StripFit,
+    VertexId,
 };
 
+use crate::error::{Error, Result};
 use crate::network::{Network, SideKind};
 use crate::options::PlanOptions;
 use crate::plane::{angle, dist, turn, unit};
 use crate::planner::seed::Path;
 use crate::planner::Tree;
 use crate::progress::{Progress, Stage};
-use crate::error::{Error, Result};
 
 /// Turn at which a block's outline has a corner, degrees.
 const CORNER_DEG: f64 = 45.0;
@@ -34,37 +35,83 @@ const MOST_KINK_DEG: f64 = 24.0;
 
 /// Optimises the streets below `root`; all others stay where they are. Keeps
 /// the network as it was if no result keeps the laws.
-pub(crate) fn improve(tree: &mut Tree, root: &Path, options: &PlanOptions, progress: &mut dyn Progress) -> Result<()> {
+pub(crate) fn improve(
+    tree: &mut Tree,
+    root: &Path,
+    options: &PlanOptions,
+    progress: &mut dyn Progress,
+) -> Result<()> {
     let whole = root.steps().is_empty();
-    let faces: BTreeSet<FaceId> = tree.leaves.values().filter(|l| l.path.is_within(root)).map(|l| l.face).collect();
+    let faces: BTreeSet<FaceId> = tree
+        .leaves
+        .values()
+        .filter(|l| l.path.is_within(root))
+        .map(|l| l.face)
+        .collect();
     if whole {
         let network = &tree.network;
-        let pinned: BTreeSet<VertexId> =
-            network.mesh.vertices().filter(|&v| freedom(network, &faces, v) != Freedom::Free || network.streets_at(v).len() != 2).collect();
-        collapse_short_edges(&mut tree.network.mesh, SHORT * options.street_width, &|v| pinned.contains(&v));
+        let pinned: BTreeSet<VertexId> = network
+            .mesh
+            .vertices()
+            .filter(|&v| {
+                freedom(network, &faces, v) != Freedom::Free || network.streets_at(v).len() != 2
+            })
+            .collect();
+        collapse_short_edges(&mut tree.network.mesh, SHORT * options.street_width, &|v| {
+            pinned.contains(&v)
+        });
     }
+    // Ends that are near each other across a notch of the boundary stay put.
+    let mouths: Vec<VertexId> = tree.network.mouths().collect();
+    let held: BTreeSet<VertexId> = mouths
+        .iter()
+        .copied()
+        .filter(|&v| {
+            let at = tree.network.mesh.point(v);
+            mouths.iter().any(|&w| {
+                w != v && dist(tree.network.mesh.point(w), at) < 4.0 * options.street_width
+            })
+        })
+        .collect();
     let before = tree.network.mesh.clone();
     let faults = faults(&tree.network, options);
-    let mut settings = OptimizeOptions { clearance: 1.75 * options.street_width, ..OptimizeOptions::default() };
+    let mut settings = OptimizeOptions {
+        clearance: 1.75 * options.street_width,
+        ..OptimizeOptions::default()
+    };
     for attempt in 0..TRIES {
         let network = &tree.network;
         let free: Vec<Freedom> = (0..network.mesh.vertex_bound())
             .map(|i| VertexId(u32::try_from(i).unwrap_or(u32::MAX)))
-            .map(|v| if network.mesh.has_vertex(v) { freedom(network, &faces, v) } else { Freedom::Fixed })
+            .map(|v| {
+                if network.mesh.has_vertex(v) && !held.contains(&v) {
+                    freedom(network, &faces, v)
+                } else {
+                    Freedom::Fixed
+                }
+            })
             .collect();
         let blocks: Vec<Block> = tree
             .leaves
             .values()
             .filter(|l| faces.contains(&l.face))
-            .map(|l| Block { face: l.face, corners: corners(tree, l.face) })
+            .map(|l| Block {
+                face: l.face,
+                corners: corners(tree, l.face),
+            })
             .collect();
-        let roads: Vec<Vec<VertexId>> = roads(&network.mesh, |side| side.kind == SideKind::Street, THROUGH_DEG)
-            .into_iter()
-            .filter(|road| road.iter().any(|&v| free[v.0 as usize] == Freedom::Free))
-            .collect();
+        let roads: Vec<Vec<VertexId>> = roads(
+            &network.mesh,
+            |side| side.kind == SideKind::Street,
+            THROUGH_DEG,
+        )
+        .into_iter()
+        .filter(|road| road.iter().any(|&v| free[v.0 as usize] == Freedom::Free))
+        .collect();
         let mut cancelled = false;
         let mut hook = |fraction: f64| {
-            cancelled = !progress.report(Stage::Optimize, (attempt as f64 + fraction) / TRIES as f64);
+            cancelled =
+                !progress.report(Stage::Optimize, (attempt as f64 + fraction) / TRIES as f64);
             !cancelled
         };
         let done = optimize(
@@ -94,7 +141,11 @@ fn freedom(network: &Network, faces: &BTreeSet<FaceId>, v: VertexId) -> Freedom 
     let mesh = &network.mesh;
     let fixed = mesh
         .outgoing(v)
-        .filter(|&h| mesh.attr(h).kind != SideKind::Street || network.street_of(h).is_some_and(|s| s.given) || !both(network, faces, h))
+        .filter(|&h| {
+            mesh.attr(h).kind != SideKind::Street
+                || network.street_of(h).is_some_and(|s| s.given)
+                || !both(network, faces, h)
+        })
         .count();
     let edges = mesh.degree(v);
     let at = mesh.point(v);
@@ -110,17 +161,24 @@ fn freedom(network: &Network, faces: &BTreeSet<FaceId>, v: VertexId) -> Freedom 
 
 /// Whether an edge lies between two faces that may both change.
 fn both(network: &Network, faces: &BTreeSet<FaceId>, h: network_opt::HalfEdgeId) -> bool {
-    faces.contains(&network.mesh.face(h)) && faces.contains(&network.mesh.face(network.mesh.twin(h)))
+    faces.contains(&network.mesh.face(h))
+        && faces.contains(&network.mesh.face(network.mesh.twin(h)))
 }
 
 /// The four corners of a block, if it has four.
 fn corners(tree: &Tree, face: FaceId) -> Option<[VertexId; 4]> {
     let region = crate::region::Region::new(&tree.network, face, Path::everything(), 0);
-    let [l] = region.loops.as_slice() else { return None };
+    let [l] = region.loops.as_slice() else {
+        return None;
+    };
     let n = l.points.len();
     let found: Vec<VertexId> = (0..n)
         .filter(|&i| {
-            let (a, b, c) = (l.points[(i + n - 1) % n], l.points[i], l.points[(i + 1) % n]);
+            let (a, b, c) = (
+                l.points[(i + n - 1) % n],
+                l.points[i],
+                l.points[(i + 1) % n],
+            );
             turn(b - a, c - b) > CORNER_DEG.to_radians()
         })
         .map(|i| l.vertices[i])
@@ -135,29 +193,45 @@ fn faults(network: &Network, options: &PlanOptions) -> usize {
     let mut count = 0;
     for v in mesh.vertices() {
         let streets = network.streets_at(v);
-        let ours = streets.iter().any(|&h| network.street_of(h).is_some_and(|s| !s.given));
+        let ours = streets
+            .iter()
+            .any(|&h| network.street_of(h).is_some_and(|s| !s.given));
         if !ours {
             continue;
         }
-        let dirs: Vec<_> = streets.iter().map(|&h| unit(mesh.point(mesh.dest(h)) - mesh.point(v))).collect();
+        let dirs: Vec<_> = streets
+            .iter()
+            .map(|&h| unit(mesh.point(mesh.dest(h)) - mesh.point(v)))
+            .collect();
         if let [a, b] = dirs.as_slice() {
             count += usize::from(turn(*a * -1.0, *b).abs() > MOST_KINK_DEG.to_radians());
             continue;
         }
         for (i, &a) in dirs.iter().enumerate() {
-            count += dirs[i + 1..].iter().filter(|&&b| angle(a, b) < LEAST_ANGLE_DEG.to_radians()).count();
+            count += dirs[i + 1..]
+                .iter()
+                .filter(|&&b| angle(a, b) < LEAST_ANGLE_DEG.to_radians())
+                .count();
         }
         // The next junction along each street.
         for &h in &streets {
             let (mut at, mut walked) = (h, mesh.length(h));
             while network.streets_at(mesh.dest(at)).len() == 2 && walked < options.street_width {
                 let end = mesh.dest(at);
-                let Some(on) = network.streets_at(end).into_iter().find(|&o| o != mesh.twin(at)) else { break };
+                let Some(on) = network
+                    .streets_at(end)
+                    .into_iter()
+                    .find(|&o| o != mesh.twin(at))
+                else {
+                    break;
+                };
                 at = on;
                 walked += mesh.length(on);
             }
             let crow = dist(mesh.point(v), mesh.point(mesh.dest(at)));
-            count += usize::from(network.streets_at(mesh.dest(at)).len() > 2 && crow < 1.2 * options.street_width);
+            count += usize::from(
+                network.streets_at(mesh.dest(at)).len() > 2 && crow < 1.2 * options.street_width,
+            );
         }
     }
     count

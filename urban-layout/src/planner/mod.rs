@@ -20,8 +20,8 @@ use crate::splitter::{Action, Cut, Fill, Proposal, Scene, Splitter};
 mod connect;
 mod geodesic;
 mod improve;
-mod reroll;
 pub(crate) mod parallel;
+mod reroll;
 pub mod seed;
 
 pub(crate) use improve::improve;
@@ -64,7 +64,7 @@ const KEEP_OFF: f64 = 1.7;
 
 /// The same as the crow flies, over the distance along the street: notches of
 /// the boundary bring far places together.
-const LEAST_SPACING: f64 = 0.75;
+const LEAST_SPACING: f64 = 0.85;
 
 /// A region that waits to be split.
 #[derive(Clone, Debug)]
@@ -76,7 +76,11 @@ pub(crate) struct Pending {
 
 impl Pending {
     pub(crate) fn new(face: FaceId, path: Path) -> Self {
-        Self { face, path, deferred: 0 }
+        Self {
+            face,
+            path,
+            deferred: 0,
+        }
     }
 }
 
@@ -91,7 +95,14 @@ impl Tree {
             .enumerate()
             .map(|(i, f)| Pending::new(f, Path::root(i)))
             .collect();
-        Ok((Self { network, leaves: BTreeMap::new(), rerolled: BTreeMap::new() }, roots))
+        Ok((
+            Self {
+                network,
+                leaves: BTreeMap::new(),
+                rerolled: BTreeMap::new(),
+            },
+            roots,
+        ))
     }
 
     /// The seed in force at a path.
@@ -120,7 +131,11 @@ pub(crate) fn split(
     options: &PlanOptions,
     progress: &mut dyn Progress,
 ) -> Result<()> {
-    let whole: f64 = pending.iter().map(|p| tree.network.mesh.area(p.face)).sum::<f64>().max(1e-9);
+    let whole: f64 = pending
+        .iter()
+        .map(|p| tree.network.mesh.area(p.face))
+        .sum::<f64>()
+        .max(1e-9);
     while !pending.is_empty() {
         let open: f64 = pending.iter().map(|p| tree.network.mesh.area(p.face)).sum();
         if !progress.report(Stage::Split, 1.0 - open / whole) {
@@ -134,7 +149,12 @@ pub(crate) fn split(
         for (p, proposals) in pending.into_iter().zip(asked) {
             // Asked again alone if its neighbours keep overtaking it.
             let proposals = if p.deferred >= MAX_DEFERRALS {
-                ask(&tree.network, &tree.region(p.face, &p.path, options.seed), splitters, options)
+                ask(
+                    &tree.network,
+                    &tree.region(p.face, &p.path, options.seed),
+                    splitters,
+                    options,
+                )
             } else {
                 proposals
             };
@@ -152,7 +172,11 @@ fn ask(
     splitters: &[Box<dyn Splitter>],
     options: &PlanOptions,
 ) -> Vec<Proposal> {
-    let scene = Scene { network, options, draft: true };
+    let scene = Scene {
+        network,
+        options,
+        draft: true,
+    };
     splitters
         .iter()
         .map(|s| s.propose(&scene, region))
@@ -164,17 +188,37 @@ fn ask(
 }
 
 /// Takes one of a region's proposals, chosen at random by quality.
-fn commit(tree: &mut Tree, p: Pending, mut proposals: Vec<Proposal>, options: &PlanOptions, next: &mut Vec<Pending>) {
+fn commit(
+    tree: &mut Tree,
+    p: Pending,
+    mut proposals: Vec<Proposal>,
+    options: &PlanOptions,
+    next: &mut Vec<Pending>,
+) {
     let seed = p.path.hash(tree.seed_at(&p.path, options.seed));
     let had_cuts = proposals.iter().any(|q| matches!(q.action, Action::Cut(_)));
     let mut turn = 0;
     while !proposals.is_empty() {
-        let chosen = choose(&proposals, options.temperature, mix(seed.wrapping_add(turn)));
+        let chosen = choose(
+            &proposals,
+            options.temperature,
+            mix(seed.wrapping_add(turn)),
+        );
         turn += 1;
-        let Proposal { action, lineage, .. } = proposals.remove(chosen);
+        let Proposal {
+            action, lineage, ..
+        } = proposals.remove(chosen);
         match action {
             Action::Fill(fill) => {
-                tree.leaves.insert(p.path.clone(), Leaf { path: p.path, face: p.face, fill, lineage });
+                tree.leaves.insert(
+                    p.path.clone(),
+                    Leaf {
+                        path: p.path,
+                        face: p.face,
+                        fill,
+                        lineage,
+                    },
+                );
                 return;
             }
             Action::Cut(cuts) => {
@@ -186,16 +230,35 @@ fn commit(tree: &mut Tree, p: Pending, mut proposals: Vec<Proposal>, options: &P
         }
     }
     if had_cuts && p.deferred <= MAX_DEFERRALS {
-        next.push(Pending { deferred: p.deferred + 1, ..p });
+        next.push(Pending {
+            deferred: p.deferred + 1,
+            ..p
+        });
     } else {
-        let lineage = Lineage { split: p.path.to_string(), by: "none".to_owned(), seed, ..Lineage::default() };
-        tree.leaves.insert(p.path.clone(), Leaf { path: p.path, face: p.face, fill: Fill::default(), lineage });
+        let lineage = Lineage {
+            split: p.path.to_string(),
+            by: "none".to_owned(),
+            seed,
+            ..Lineage::default()
+        };
+        tree.leaves.insert(
+            p.path.clone(),
+            Leaf {
+                path: p.path,
+                face: p.face,
+                fill: Fill::default(),
+                lineage,
+            },
+        );
     }
 }
 
 /// Index of a proposal, drawn with weights that fall with its cost over the best.
 fn choose(proposals: &[Proposal], temperature: f64, random: u64) -> usize {
-    let best = proposals.iter().map(|p| p.cost).fold(f64::INFINITY, f64::min);
+    let best = proposals
+        .iter()
+        .map(|p| p.cost)
+        .fold(f64::INFINITY, f64::min);
     let weight = |p: &Proposal| {
         if temperature > 0.0 {
             (-(p.cost - best) / temperature).exp()
@@ -227,9 +290,16 @@ pub(crate) fn apply(
     let mut parts = vec![p.face];
     let mut laid = 0;
     for cut in cuts {
-        let middle = cut.path.get(cut.path.len() / 2).copied().unwrap_or((cut.from.at + cut.to.at) * 0.5);
+        let middle = cut
+            .path
+            .get(cut.path.len() / 2)
+            .copied()
+            .unwrap_or((cut.from.at + cut.to.at) * 0.5);
         let Some(slot) = parts.iter().position(|&f| {
-            tree.network.rings(f).first().is_some_and(|ring| crate::plane::in_ring(ring, middle))
+            tree.network
+                .rings(f)
+                .first()
+                .is_some_and(|ring| crate::plane::in_ring(ring, middle))
         }) else {
             continue;
         };
@@ -238,7 +308,10 @@ pub(crate) fn apply(
         let clear = keep_off * options.street_width;
         let first = cut.path.first().copied().unwrap_or(cut.to.at);
         let last = cut.path.last().copied().unwrap_or(cut.from.at);
-        let ends = (end(tree, &region, &cut.from, first, clear), end(tree, &region, &cut.to, last, clear));
+        let ends = (
+            end(tree, &region, &cut.from, first, clear),
+            end(tree, &region, &cut.to, last, clear),
+        );
         let (Some(from), Some(to)) = ends else {
             continue;
         };
@@ -255,7 +328,11 @@ pub(crate) fn apply(
             lineage: Some(lineage.clone()),
         };
         let side = tree.network.add_street(info);
-        let Ok(split) = tree.network.mesh.split_face(face, &cut.path, from, to, side, side) else {
+        let Ok(split) = tree
+            .network
+            .mesh
+            .split_face(face, &cut.path, from, to, side, side)
+        else {
             tree.network.streets.pop();
             continue;
         };
@@ -265,12 +342,24 @@ pub(crate) fn apply(
     if laid == 0 {
         return None;
     }
-    Some(parts.into_iter().enumerate().map(|(i, f)| Pending::new(f, p.path.child(i))).collect())
+    Some(
+        parts
+            .into_iter()
+            .enumerate()
+            .map(|(i, f)| Pending::new(f, p.path.child(i)))
+            .collect(),
+    )
 }
 
 /// Where a cut's end lies on the region's boundary now; `None` if a junction
 /// has come too close since the cut was proposed.
-fn end(tree: &Tree, region: &Region, place: &Place, towards: Coord<f64>, clear: f64) -> Option<End> {
+fn end(
+    tree: &Tree,
+    region: &Region,
+    place: &Place,
+    towards: Coord<f64>,
+    clear: f64,
+) -> Option<End> {
     let Place { ring, edge, at } = region.place_facing(place.at, towards);
     if dist(at, place.at) > 1e-3 {
         return None;
@@ -293,7 +382,9 @@ fn end(tree: &Tree, region: &Region, place: &Place, towards: Coord<f64>, clear: 
         return None;
     }
     let mesh = &tree.network.mesh;
-    let near = |v: network_opt::VertexId| Some(v) != vertex && dist(mesh.point(v), at) < LEAST_SPACING * clear;
+    let near = |v: network_opt::VertexId| {
+        Some(v) != vertex && dist(mesh.point(v), at) < LEAST_SPACING * clear
+    };
     if l.sides[edge].kind == SideKind::Boundary && tree.network.mouths().any(near) {
         return None;
     }

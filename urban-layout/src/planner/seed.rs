@@ -59,7 +59,11 @@ impl Path {
     /// stream, and with a fixed seed its stable id. SplitMix64 over the steps.
     #[must_use]
     pub fn hash(&self, seed: u64) -> u64 {
-        self.0.iter().fold(mix(seed ^ 0x9e37_79b9_7f4a_7c15), |h, &step| mix(h ^ (u64::from(step) + 1)))
+        self.0
+            .iter()
+            .fold(mix(seed ^ 0x9e37_79b9_7f4a_7c15), |h, &step| {
+                mix(h ^ (u64::from(step) + 1))
+            })
     }
 }
 
@@ -103,6 +107,9 @@ mod tests {
         assert!(path.is_within(&Path::root(0).child(1)));
         assert!(!path.is_within(&Path::root(0).child(0)));
         assert_ne!(path.hash(1), path.hash(2));
-        assert_ne!(path.hash(1), Path::root(0).child(1).child(0).child(1).hash(1));
+        assert_ne!(
+            path.hash(1),
+            Path::root(0).child(1).child(0).child(1).hash(1)
+        );
     }
 }

@@ -54,13 +54,26 @@ impl<'a> CutMaker<'a> {
             .filter(|&v| {
                 let streets = network.streets_at(v);
                 streets.len() >= 3
-                    && streets.iter().any(|&h| network.street_of(h).is_some_and(|s| s.class == crate::site::RoadClass::Major))
+                    && streets.iter().any(|&h| {
+                        network
+                            .street_of(h)
+                            .is_some_and(|s| s.class == crate::site::RoadClass::Major)
+                    })
             })
             .map(|v| network.mesh.point(v))
             .collect();
         let mouths = network.mouths().map(|v| network.mesh.point(v)).collect();
         let entries = network.entries.iter().map(|e| (e.at, e.inward)).collect();
-        Self { region, options: scene.options, grid, sides, major_junctions, entries, mouths, needs_room: true }
+        Self {
+            region,
+            options: scene.options,
+            grid,
+            sides,
+            major_junctions,
+            entries,
+            mouths,
+            needs_room: true,
+        }
     }
 
     /// Makes streets where parcels beside them may not fit: connections that
@@ -80,6 +93,15 @@ impl<'a> CutMaker<'a> {
             1.8
         } else {
             Self::TIGHT
+        }
+    }
+
+    /// How far apart, as the crow flies, street ends on the boundary stay.
+    fn spread(&self) -> f64 {
+        if self.needs_room {
+            1.5
+        } else {
+            1.1
         }
     }
 
@@ -104,7 +126,10 @@ impl<'a> CutMaker<'a> {
         points.reverse();
         if start.ring == end.ring {
             let l = &self.region.loops[start.ring];
-            let apart = l.between(l.position(start.edge, start.at), l.position(end.edge, end.at));
+            let apart = l.between(
+                l.position(start.edge, start.at),
+                l.position(end.edge, end.at),
+            );
             if apart < 2.0 * self.options.street_width {
                 return None;
             }
@@ -112,7 +137,11 @@ impl<'a> CutMaker<'a> {
         let points = smooth(&points, 1);
         self.buildable(&points, &start, &end).then(|| {
             let thin = simplify(&points, 0.08);
-            Cut { from: start, path: thin[1..thin.len() - 1].to_vec(), to: end }
+            Cut {
+                from: start,
+                path: thin[1..thin.len() - 1].to_vec(),
+                to: end,
+            }
         })
     }
 
@@ -128,13 +157,26 @@ impl<'a> CutMaker<'a> {
             let entry = self
                 .entries
                 .iter()
-                .filter(|(at, dir)| dist(*at, place.at) < 2.0 * keep_off && angle(*dir, inward) < 50f64.to_radians())
+                .filter(|(at, dir)| {
+                    dist(*at, place.at) < 2.0 * keep_off && angle(*dir, inward) < 50f64.to_radians()
+                })
                 .min_by(|a, b| dist(a.0, place.at).total_cmp(&dist(b.0, place.at)));
             if let Some(&(at, dir)) = entry {
                 let (s, edge, at) = l.nearest(at);
-                let clear = l.nodes.iter().filter(|n| n.junction).all(|n| l.between(n.position, s) > keep_off);
+                let clear = l
+                    .nodes
+                    .iter()
+                    .filter(|n| n.junction)
+                    .all(|n| l.between(n.position, s) > keep_off);
                 if clear && l.sides[edge].kind == SideKind::Boundary {
-                    return Some((Place { ring: place.ring, edge, at }, dir));
+                    return Some((
+                        Place {
+                            ring: place.ring,
+                            edge,
+                            at,
+                        },
+                        dir,
+                    ));
                 }
             }
         }
@@ -142,14 +184,24 @@ impl<'a> CutMaker<'a> {
             l.nodes
                 .iter()
                 .filter(move |n| l.between(n.position, s) < reach)
-                .min_by(move |a, b| l.between(a.position, s).total_cmp(&l.between(b.position, s)))
+                .min_by(move |a, b| {
+                    l.between(a.position, s)
+                        .total_cmp(&l.between(b.position, s))
+                })
         };
         let mut target = position;
         if let Some(node) = near(position, keep_off) {
             if let Some(dir) = node.continues {
                 if angle(dir, inward) < 24f64.to_radians() {
                     let edge = l.vertices.iter().position(|&v| v == node.vertex)?;
-                    return Some((Place { ring: place.ring, edge, at: node.at }, dir));
+                    return Some((
+                        Place {
+                            ring: place.ring,
+                            edge,
+                            at: node.at,
+                        },
+                        dir,
+                    ));
                 }
             }
             // Step off along the loop, away from the node.
@@ -168,7 +220,10 @@ impl<'a> CutMaker<'a> {
         }
         if side.kind == SideKind::Street
             && !side.access
-            && self.major_junctions.iter().any(|&j| dist(j, at) < MAJOR_SPACING)
+            && self
+                .major_junctions
+                .iter()
+                .any(|&j| dist(j, at) < MAJOR_SPACING)
         {
             return None;
         }
@@ -182,14 +237,25 @@ impl<'a> CutMaker<'a> {
             at
         };
         // Across a notch of the boundary another street's end may be near.
-        if self.mouths.iter().any(|&m| dist(m, at) < Self::TIGHT * self.options.street_width) {
+        if self
+            .mouths
+            .iter()
+            .any(|&m| dist(m, at) < self.spread() * self.options.street_width)
+        {
             return None;
         }
         let off = angle(normal, inward);
         if off > 55f64.to_radians() {
             return None;
         }
-        Some((Place { ring: place.ring, edge, at }, normal))
+        Some((
+            Place {
+                ring: place.ring,
+                edge,
+                at,
+            },
+            normal,
+        ))
     }
 
     /// The laws of a street, on its shaped points.
@@ -205,12 +271,23 @@ impl<'a> CutMaker<'a> {
             let l = &self.region.loops[place.ring];
             let count = l.points.len();
             // At a vertex both edges count.
-            [place.edge, (place.edge + count - 1) % count, (place.edge + 1) % count].iter().all(|&e| {
+            [
+                place.edge,
+                (place.edge + count - 1) % count,
+                (place.edge + 1) % count,
+            ]
+            .iter()
+            .all(|&e| {
                 let (a, b) = l.edge(e);
                 let touches = dist(crate::plane::nearest_on(a, b, place.at).0, place.at) < 1e-6;
                 let t = angle(b - a, inward);
-                let least = if l.sides[e].kind == SideKind::Street { LEAST_MEETING_DEG } else { 35.0 };
-                !touches || (t > least.to_radians() && t < std::f64::consts::PI - least.to_radians())
+                let least = if l.sides[e].kind == SideKind::Street {
+                    LEAST_MEETING_DEG
+                } else {
+                    35.0
+                };
+                !touches
+                    || (t > least.to_radians() && t < std::f64::consts::PI - least.to_radians())
             })
         };
         if !meets(start, points[1] - points[0]) || !meets(end, points[n - 2] - points[n - 1]) {
@@ -244,10 +321,18 @@ impl<'a> CutMaker<'a> {
             for side in [1.0, -1.0] {
                 let normal = left(tangent) * side;
                 count += 1;
-                let Some(hit) = self.grid.ray(points[i], normal, 0.0, 3.0 * depth) else { continue };
+                let Some(hit) = self.grid.ray(points[i], normal, 0.0, 3.0 * depth) else {
+                    continue;
+                };
                 let met = self.sides[hit.segment];
                 // Two rows where a street lies opposite, one at a boundary.
-                let least = half + met.inset + if met.access { 1.45 * depth } else { 0.66 * depth };
+                let least = half
+                    + met.inset
+                    + if met.access {
+                        1.45 * depth
+                    } else {
+                        0.66 * depth
+                    };
                 if hit.distance < least {
                     cramped += 1;
                 }
@@ -313,13 +398,17 @@ fn fade(t: f64) -> f64 {
 fn crosses_itself(points: &[Coord<f64>]) -> bool {
     // Streets are a few dozen points long, and smooth: only those that wind
     // by more than half a turn can cross themselves.
-    let wound: f64 = points.windows(3).map(|w| turn(w[1] - w[0], w[2] - w[1]).abs()).sum();
+    let wound: f64 = points
+        .windows(3)
+        .map(|w| turn(w[1] - w[0], w[2] - w[1]).abs())
+        .sum();
     if wound < std::f64::consts::PI {
         return false;
     }
     let grid = SegmentGrid::new(points.windows(2).map(|w| (w[0], w[1])).collect());
     points.windows(2).enumerate().any(|(i, w)| {
         let d = dist(w[0], w[1]);
-        grid.ray(w[0], unit(w[1] - w[0]), 1e-6, d - 1e-6).is_some_and(|h| h.segment != i)
+        grid.ray(w[0], unit(w[1] - w[0]), 1e-6, d - 1e-6)
+            .is_some_and(|h| h.segment != i)
     })
 }

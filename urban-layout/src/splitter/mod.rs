@@ -12,15 +12,15 @@ use crate::options::PlanOptions;
 use crate::region::{Place, Region};
 
 mod cut;
+mod parcels;
 mod park;
 mod rows;
-mod parcels;
 mod service;
 mod streamlines;
 mod templates;
 
-pub use park::ParkFill;
 pub use parcels::SkeletonParceler;
+pub use park::ParkFill;
 pub use streamlines::StreamlineSplitter;
 pub use templates::TemplateSplitter;
 

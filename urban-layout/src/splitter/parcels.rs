@@ -20,9 +20,16 @@ impl Splitter for SkeletonParceler {
         if !region.has_access() {
             return Vec::new();
         }
-        let mut fill = Fill { template: self.name().to_owned(), ..Fill::default() };
+        let mut fill = Fill {
+            template: self.name().to_owned(),
+            ..Fill::default()
+        };
         if scene.draft {
-            return vec![Proposal { cost: 0.0, action: Action::Fill(fill), lineage: Lineage::of(region, self.name()) }];
+            return vec![Proposal {
+                cost: 0.0,
+                action: Action::Fill(fill),
+                lineage: Lineage::of(region, self.name()),
+            }];
         }
         let options = scene.options;
         let rule = ParcelOptions {
@@ -34,18 +41,29 @@ impl Splitter for SkeletonParceler {
         for plot in inset(region).iter().flat_map(|p| p.without_holes(region)) {
             fill.faces.extend(fill_plot(plot, &rule));
         }
-        vec![Proposal { cost: 0.0, action: Action::Fill(fill), lineage: Lineage::of(region, self.name()) }]
+        vec![Proposal {
+            cost: 0.0,
+            action: Action::Fill(fill),
+            lineage: Lineage::of(region, self.name()),
+        }]
     }
 }
 
 /// The pieces of one plot.
 fn fill_plot(plot: Plot, rule: &ParcelOptions) -> Vec<FillFace> {
-    let Plot { mut rings, mut sides, .. } = plot;
+    let Plot {
+        mut rings,
+        mut sides,
+        ..
+    } = plot;
     if rings.is_empty() {
         return Vec::new();
     }
     let (ring, front) = (rings.swap_remove(0), sides.swap_remove(0));
-    let block = Block { ring, front: front.iter().map(|s| s.access).collect() };
+    let block = Block {
+        ring,
+        front: front.iter().map(|s| s.access).collect(),
+    };
     parcel(&block, rule)
         .into_iter()
         .map(|piece| {

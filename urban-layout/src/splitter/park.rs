@@ -23,7 +23,11 @@ impl Splitter for ParkFill {
             .collect();
         vec![Proposal {
             cost: 1.0,
-            action: Action::Fill(Fill { faces, streets: Vec::new(), template: self.name().to_owned() }),
+            action: Action::Fill(Fill {
+                faces,
+                streets: Vec::new(),
+                template: self.name().to_owned(),
+            }),
             lineage: Lineage::of(region, self.name()),
         }]
     }
@@ -33,7 +37,13 @@ impl FillFace {
     /// A face that no template made.
     #[must_use]
     pub fn plain(ring: Vec<geo_types::Coord<f64>>, use_: FaceUse) -> Self {
-        Self { ring, use_, ideal_area: None, registration: None, access_exempt: false }
+        Self {
+            ring,
+            use_,
+            ideal_area: None,
+            registration: None,
+            access_exempt: false,
+        }
     }
 }
 
@@ -41,6 +51,13 @@ impl Lineage {
     /// Lineage of what splitter `by` does with `region`.
     #[must_use]
     pub fn of(region: &Region, by: &str) -> Self {
-        Self { split: region.path.to_string(), by: by.to_owned(), field: None, scores: None, energy: None, seed: region.seed }
+        Self {
+            split: region.path.to_string(),
+            by: by.to_owned(),
+            field: None,
+            scores: None,
+            energy: None,
+            seed: region.seed,
+        }
     }
 }

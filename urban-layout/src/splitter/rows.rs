@@ -49,8 +49,16 @@ impl<'a> RowFit<'a> {
                 .fold(WORST, f64::min)
         };
         let steps = (REACH / RESOLUTION) as usize;
-        let table = (0..=steps).map(|i| (misfit(i as f64 * RESOLUTION) / WORST).powi(2)).collect();
-        Self { grid, sides, half: 0.5 * street, depth, table }
+        let table = (0..=steps)
+            .map(|i| (misfit(i as f64 * RESOLUTION) / WORST).powi(2))
+            .collect();
+        Self {
+            grid,
+            sides,
+            half: 0.5 * street,
+            depth,
+            table,
+        }
     }
 
     /// The misfit of land `width` metres wide between two streets' edges, 0 to 1.
@@ -58,7 +66,10 @@ impl<'a> RowFit<'a> {
         if width <= 0.0 {
             return 1.0;
         }
-        self.table.get((width / RESOLUTION).round() as usize).copied().unwrap_or(0.0)
+        self.table
+            .get((width / RESOLUTION).round() as usize)
+            .copied()
+            .unwrap_or(0.0)
     }
 }
 
@@ -73,7 +84,9 @@ impl Score for RowFit<'_> {
             for side in [1.0, -1.0] {
                 let normal = left(sample.tangent) * side;
                 count += 1.0;
-                let Some(hit) = self.grid.ray(sample.at, normal, 0.0, REACH) else { continue };
+                let Some(hit) = self.grid.ray(sample.at, normal, 0.0, REACH) else {
+                    continue;
+                };
                 let met = self.sides[hit.segment];
                 // A boundary without a street counts as one a row farther on.
                 let beyond = if met.access { 0.0 } else { self.depth };

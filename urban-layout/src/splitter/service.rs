@@ -30,16 +30,27 @@ impl Service {
     pub(crate) fn of(region: &Region, options: &PlanOptions) -> Self {
         let step = (region.area / 1500.0).sqrt().clamp(4.0, 25.0);
         let deepest = DEEPEST * options.parcel_length;
-        let access: Vec<_> = region.edges().filter(|(_, _, s)| s.access).map(|(a, b, s)| ((a, b), s.inset)).collect();
+        let access: Vec<_> = region
+            .edges()
+            .filter(|(_, _, s)| s.access)
+            .map(|(a, b, s)| ((a, b), s.inset))
+            .collect();
         let widest = access.iter().map(|a| a.1).fold(0.0, f64::max);
         let insets: Vec<f64> = access.iter().map(|a| a.1).collect();
         let grid = SegmentGrid::new(access.into_iter().map(|a| a.0).collect());
         let unserved = samples(region, step)
             .into_iter()
-            .filter(|&p| grid.nearest(p, deepest + widest).is_none_or(|h| h.distance > deepest + insets[h.segment]))
+            .filter(|&p| {
+                grid.nearest(p, deepest + widest)
+                    .is_none_or(|h| h.distance > deepest + insets[h.segment])
+            })
             .collect();
         let too_long = region.rectangle_length() > 1.25 * options.block_length;
-        Self { unserved, cell: step * step, too_long }
+        Self {
+            unserved,
+            cell: step * step,
+            too_long,
+        }
     }
 
     /// Whether enough land is out of reach to be worth a street.
@@ -51,8 +62,13 @@ impl Service {
 
 /// Grid points inside a region.
 fn samples(region: &Region, step: f64) -> Vec<Coord<f64>> {
-    let Some(outer) = region.loops.first() else { return Vec::new() };
-    let (mut low, mut high) = (at(f64::INFINITY, f64::INFINITY), at(f64::NEG_INFINITY, f64::NEG_INFINITY));
+    let Some(outer) = region.loops.first() else {
+        return Vec::new();
+    };
+    let (mut low, mut high) = (
+        at(f64::INFINITY, f64::INFINITY),
+        at(f64::NEG_INFINITY, f64::NEG_INFINITY),
+    );
     for p in &outer.points {
         low = at(low.x.min(p.x), low.y.min(p.y));
         high = at(high.x.max(p.x), high.y.max(p.y));

@@ -1,19 +1,21 @@
 //! Streamline-based splitting (paper section 5): a cross field over the
 //! region, candidate streamlines, their scores, and streets along the best.
 
-use crossfield::{BoundaryField, DistanceField, Domain, DomainOptions, Field, FieldDesign, HarmonicField};
+use crossfield::{
+    BoundaryField, DistanceField, Domain, DomainOptions, Field, FieldDesign, HarmonicField,
+};
 use geo_types::Coord;
 use streamline::{
-    candidates, rank, BoundaryDistance, BoundaryOptions, CandidateOptions, Continuity, Divergence, Score, Seed,
-    SingularityDistance, Stop, Streamline, TraceOptions, WidthTable,
+    candidates, rank, BoundaryDistance, BoundaryOptions, CandidateOptions, Continuity, Divergence,
+    Score, Seed, SingularityDistance, Stop, Streamline, TraceOptions, WidthTable,
 };
 
 use crate::adapt::Arms;
+use crate::assemble::polygon_of;
+use crate::inset::{clean_ring, difference};
 use crate::layout::Lineage;
 use crate::network::{Network, SideKind};
 use crate::options::{FieldKind, PlanOptions};
-use crate::assemble::polygon_of;
-use crate::inset::{clean_ring, difference};
 use crate::plane::{at, cross, dist, left, signed_area, unit};
 use crate::region::{Place, Region};
 use crate::splitter::rows::RowFit;
@@ -42,7 +44,9 @@ impl Splitter for StreamlineSplitter {
         if !service.wants_street(region) && !service.too_long {
             return Vec::new();
         }
-        let Some(field) = field(region, scene.options) else { return Vec::new() };
+        let Some(field) = field(region, scene.options) else {
+            return Vec::new();
+        };
         propose_from(scene, region, &service, &field)
     }
 }
@@ -53,7 +57,14 @@ pub(crate) fn mesh_of(region: &Region, edge_length: f64) -> Option<Domain> {
 }
 
 fn mesh(rings: &[Vec<Coord<f64>>], edge_length: f64) -> Option<Domain> {
-    Domain::new(&polygon_of(rings), &DomainOptions { edge_length, ..DomainOptions::default() }).ok()
+    Domain::new(
+        &polygon_of(rings),
+        &DomainOptions {
+            edge_length,
+            ..DomainOptions::default()
+        },
+    )
+    .ok()
 }
 
 /// The cross field of a region, `None` where the region cannot be meshed.
@@ -62,9 +73,12 @@ fn field(region: &Region, options: &PlanOptions) -> Option<Field> {
     let rings = open_rings(region)?;
     let domain = mesh(&rings, edge_length)?;
     match options.field {
-        FieldKind::Distance => {
-            DistanceField { weights: weights(&rings), ..DistanceField::default() }.design(&domain).ok()
+        FieldKind::Distance => DistanceField {
+            weights: weights(&rings),
+            ..DistanceField::default()
         }
+        .design(&domain)
+        .ok(),
         FieldKind::Boundary => BoundaryField::default().design(&domain).ok(),
         FieldKind::Harmonic => HarmonicField.design(&domain).ok(),
     }
@@ -82,13 +96,30 @@ fn open_rings(region: &Region) -> Option<Vec<Vec<Coord<f64>>>> {
         for (i, _) in l.slits.iter().enumerate().filter(|(_, &slit)| slit) {
             let (a, b) = l.edge(i);
             let (along, across) = (unit(b - a) * GAP, left(unit(b - a)) * GAP);
-            gaps.push([a - along - across, b + along - across, b + along + across, a - along + across].map(|p| [p.x, p.y]).to_vec());
+            gaps.push(
+                [
+                    a - along - across,
+                    b + along - across,
+                    b + along + across,
+                    a - along + across,
+                ]
+                .map(|p| [p.x, p.y])
+                .to_vec(),
+            );
         }
     }
-    let subject: Vec<Vec<[f64; 2]>> = region.loops.iter().map(|l| l.points.iter().map(|p| [p.x, p.y]).collect()).collect();
+    let subject: Vec<Vec<[f64; 2]>> = region
+        .loops
+        .iter()
+        .map(|l| l.points.iter().map(|p| [p.x, p.y]).collect())
+        .collect();
     let shapes = difference(&[subject], &gaps);
     let rings_of = |shape: &Vec<Vec<[f64; 2]>>| -> Vec<Vec<Coord<f64>>> {
-        shape.iter().map(|r| clean_ring(&r.iter().map(|p| at(p[0], p[1])).collect::<Vec<_>>())).filter(|r| r.len() >= 3).collect()
+        shape
+            .iter()
+            .map(|r| clean_ring(&r.iter().map(|p| at(p[0], p[1])).collect::<Vec<_>>()))
+            .filter(|r| r.len() >= 3)
+            .collect()
     };
     shapes.iter().map(rings_of).max_by(|a, b| {
         let area = |rings: &Vec<Vec<Coord<f64>>>| rings.iter().map(|r| signed_area(r)).sum::<f64>();
@@ -121,7 +152,10 @@ fn weights(rings: &[Vec<Coord<f64>>]) -> Vec<Vec<f64>> {
                     run.push((start + k) % n);
                     k += 1;
                 }
-                let length: f64 = run.iter().map(|&i| dist(edge(ring, i).0, edge(ring, i).1)).sum();
+                let length: f64 = run
+                    .iter()
+                    .map(|&i| dist(edge(ring, i).0, edge(ring, i).1))
+                    .sum();
                 for i in run {
                     out[i] = (length / 90.0).sqrt().clamp(0.35, 1.0);
                 }
@@ -131,7 +165,12 @@ fn weights(rings: &[Vec<Coord<f64>>]) -> Vec<Vec<f64>> {
         .collect()
 }
 
-fn propose_from(scene: &Scene<'_>, region: &Region, service: &Service, field: &Field) -> Vec<Proposal> {
+fn propose_from(
+    scene: &Scene<'_>,
+    region: &Region,
+    service: &Service,
+    field: &Field,
+) -> Vec<Proposal> {
     let options = scene.options;
     let arms = Arms(field);
     let lines = trace_candidates(scene.network, region, options, field, &arms);
@@ -145,7 +184,11 @@ fn propose_from(scene: &Scene<'_>, region: &Region, service: &Service, field: &F
     let rows = RowFit::new(&grid, &sides, options);
     let scores: Vec<(&dyn Score, f64)> = vec![
         (&measures.divergence, w.divergence),
-        if options.row_fit { (&rows, w.boundary) } else { (&measures.boundary, w.boundary) },
+        if options.row_fit {
+            (&rows, w.boundary)
+        } else {
+            (&measures.boundary, w.boundary)
+        },
         (&measures.singularities, w.singularities),
         (&measures.continuity, w.continuity),
     ];
@@ -153,10 +196,16 @@ fn propose_from(scene: &Scene<'_>, region: &Region, service: &Service, field: &F
     // The planner's own terms, on top of the paper's four.
     let mut order: Vec<(f64, usize, [f64; 4])> = ranked
         .iter()
-        .filter(|r| paths[r.index].as_ref().is_some_and(|p| isolation(region, p, options).is_finite()))
+        .filter(|r| {
+            paths[r.index]
+                .as_ref()
+                .is_some_and(|p| isolation(region, p, options).is_finite())
+        })
         .map(|r| {
             let parts = [r.parts[0], r.parts[1], r.parts[2], r.parts[3]];
-            let alone = paths[r.index].as_ref().map_or(0.0, |p| isolation(region, p, options));
+            let alone = paths[r.index]
+                .as_ref()
+                .map_or(0.0, |p| isolation(region, p, options));
             let own = w.balance * measures.balance[r.index] + w.service * measures.service[r.index];
             (r.total + own + alone, r.index, parts)
         })
@@ -166,7 +215,9 @@ fn propose_from(scene: &Scene<'_>, region: &Region, service: &Service, field: &F
     let mut made: Vec<(f64, usize, Cut, [f64; 4])> = Vec::new();
     for &(cost, index, parts) in order.iter().take(TRIED) {
         let Some(path) = &paths[index] else { continue };
-        let Some(cut) = maker.make(path) else { continue };
+        let Some(cut) = maker.make(path) else {
+            continue;
+        };
         if made.iter().all(|(_, _, other, _)| !alike(&cut, other)) {
             made.push((cost, index, cut, parts));
         }
@@ -206,18 +257,30 @@ fn trace_candidates(
             let mut cursor = crossfield::Cursor::default();
             let cross = field.cross(vertices[v], &mut cursor)?;
             let arms = cross.arms();
-            Some(Seed { at: vertices[v], directions: [arms[0], arms[1]] })
+            Some(Seed {
+                at: vertices[v],
+                directions: [arms[0], arms[1]],
+            })
         })
         .collect();
     // The paper's d_eps; coarser on large regions, where a street may lie
     // anywhere within a block's depth.
     let separation = (0.3 * options.parcel_length).max(region.area.sqrt() / 70.0);
-    let trace = TraceOptions { step: 8.0, max_length: 4.0 * region.perimeter(), ..TraceOptions::default() };
+    let trace = TraceOptions {
+        step: 8.0,
+        max_length: 4.0 * region.perimeter(),
+        ..TraceOptions::default()
+    };
     let mut lines: Vec<Streamline> = invitations(network, region)
         .into_iter()
         .filter_map(|(at, inward)| streamline::trace(arms, at + inward * 2.0, inward, &trace).ok())
         .collect();
-    let options = CandidateOptions { separation, seed: region.seed, trace, ..CandidateOptions::default() };
+    let options = CandidateOptions {
+        separation,
+        seed: region.seed,
+        trace,
+        ..CandidateOptions::default()
+    };
     lines.extend(candidates(arms, &seeds, &options).unwrap_or_default());
     lines
 }
@@ -225,9 +288,16 @@ fn trace_candidates(
 /// Where a street waits to be continued into the region, and its direction:
 /// T-junctions across a street, and mouths of streets outside.
 fn invitations(network: &Network, region: &Region) -> Vec<(Coord<f64>, Coord<f64>)> {
-    let junctions = region.loops.iter().flat_map(|l| l.nodes.iter().filter_map(|n| n.continues.map(|d| (n.at, d))));
+    let junctions = region.loops.iter().flat_map(|l| {
+        l.nodes
+            .iter()
+            .filter_map(|n| n.continues.map(|d| (n.at, d)))
+    });
     let mouths = network.entries.iter().filter(|e| {
-        region.loops.iter().any(|l| dist(l.nearest(e.at).2, e.at) < 0.01)
+        region
+            .loops
+            .iter()
+            .any(|l| dist(l.nearest(e.at).2, e.at) < 0.01)
     });
     junctions.chain(mouths.map(|e| (e.at, e.inward))).collect()
 }
@@ -282,26 +352,44 @@ impl Measures {
         let segments: Vec<(Coord<f64>, Coord<f64>, f64)> = region
             .edges()
             .map(|(a, b, side)| {
-                let beyond = if side.access { 0.0 } else { options.parcel_length };
+                let beyond = if side.access {
+                    0.0
+                } else {
+                    options.parcel_length
+                };
                 (a, b, half + side.inset - beyond)
             })
             .collect();
         let row = 2.0 * options.parcel_length;
-        let widths: Vec<f64> = (0..8).map(|k| row + f64::from(k) * (row + options.street_width)).collect();
+        let widths: Vec<f64> = (0..8)
+            .map(|k| row + f64::from(k) * (row + options.street_width))
+            .collect();
         let table = WidthTable::new(&widths[..], TABLE_REACH, 0.5);
         let network = scene.network;
         let ends = region
             .loops
             .iter()
-            .flat_map(|l| l.nodes.iter().filter_map(|n| n.continues.map(|d| (n.at, d * -1.0))))
+            .flat_map(|l| {
+                l.nodes
+                    .iter()
+                    .filter_map(|n| n.continues.map(|d| (n.at, d * -1.0)))
+            })
             .chain(network.entries.iter().map(|e| (e.at, e.inward * -1.0)))
             .collect();
-        let balance = paths.iter().map(|p| p.as_ref().map_or(1.0, |p| imbalance(region, p))).collect();
+        let balance = paths
+            .iter()
+            .map(|p| p.as_ref().map_or(1.0, |p| imbalance(region, p)))
+            .collect();
         Self {
             divergence: Divergence::default(),
             boundary: BoundaryDistance::new(&segments, table, BoundaryOptions::default()),
-            singularities: SingularityDistance { singularities: field.singularities().iter().map(|s| s.at).collect() },
-            continuity: Continuity { ends, ..Continuity::default() },
+            singularities: SingularityDistance {
+                singularities: field.singularities().iter().map(|s| s.at).collect(),
+            },
+            continuity: Continuity {
+                ends,
+                ..Continuity::default()
+            },
             balance,
             service: unserved_left(service, lines, options),
         }
@@ -349,7 +437,8 @@ fn unserved_left(service: &Service, lines: &[Streamline], options: &PlanOptions)
     let reach = 1.5 * options.parcel_length + 0.5 * options.street_width;
     let size = reach;
     let cell = |p: Coord<f64>| ((p.x / size).floor() as i64, (p.y / size).floor() as i64);
-    let mut grid: std::collections::BTreeMap<(i64, i64), Vec<usize>> = std::collections::BTreeMap::new();
+    let mut grid: std::collections::BTreeMap<(i64, i64), Vec<usize>> =
+        std::collections::BTreeMap::new();
     for (i, &p) in service.unserved.iter().enumerate() {
         grid.entry(cell(p)).or_default().push(i);
     }
@@ -374,20 +463,26 @@ fn unserved_left(service: &Service, lines: &[Streamline], options: &PlanOptions)
         })
         .collect();
     let most = gains.iter().copied().fold(0.0, f64::max);
-    gains.iter().map(|g| if most > 0.0 { 1.0 - g / most } else { 0.0 }).collect()
+    gains
+        .iter()
+        .map(|g| if most > 0.0 { 1.0 - g / most } else { 0.0 })
+        .collect()
 }
 
 /// Whether two cuts are nearly the same street.
 fn alike(a: &Cut, b: &Cut) -> bool {
     let near = |p: Coord<f64>, q: Coord<f64>| dist(p, q) < 12.0;
-    (near(a.from.at, b.from.at) && near(a.to.at, b.to.at)) || (near(a.from.at, b.to.at) && near(a.to.at, b.from.at))
+    (near(a.from.at, b.from.at) && near(a.to.at, b.to.at))
+        || (near(a.from.at, b.to.at) && near(a.to.at, b.from.at))
 }
 
 /// What it costs that a street would touch no other: once there are streets,
 /// a new one should be reached from them.
 fn isolation(region: &Region, path: &Path2, options: &PlanOptions) -> f64 {
     let joined = on_street(region, &path.from) || on_street(region, &path.to);
-    let first = !region.edges().any(|(_, _, side)| side.kind == SideKind::Street);
+    let first = !region
+        .edges()
+        .any(|(_, _, side)| side.kind == SideKind::Street);
     if joined || first {
         0.0
     } else if region.area > 4.0 * options.block_length * options.block_length {

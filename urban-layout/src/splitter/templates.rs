@@ -1,11 +1,14 @@
 //! Template-based splitting (paper section 4): the block's templates matched,
 //! warped, and taken if the warp is gentle enough.
 
-use template_warp::{match_templates, warp, EdgeUse, Library, MatchOptions, Region as TemplateRegion, WarpOptions, Warped};
+use template_warp::{
+    match_templates, warp, EdgeUse, Library, MatchOptions, Region as TemplateRegion, WarpOptions,
+    Warped,
+};
 
+use crate::assemble::polygon_of;
 use crate::error::{Error, Result};
 use crate::inset::{inset, Plot};
-use crate::assemble::polygon_of;
 use crate::layout::{is_undesirable, measure_parcel, Lineage};
 use crate::options::PlanOptions;
 use crate::planner::seed::mix;
@@ -34,9 +37,17 @@ impl TemplateSplitter {
         let mut library = Library::standard();
         if !options.templates.is_empty() {
             let names: Vec<&str> = options.templates.iter().map(String::as_str).collect();
-            library = library.subset(&names).map_err(|e| Error::usage(format!("templates: {e}")))?;
+            library = library
+                .subset(&names)
+                .map_err(|e| Error::usage(format!("templates: {e}")))?;
         }
-        Ok(Self { library: library.with_sizes(options.parcel_length, options.parcel_width, options.street_width) })
+        Ok(Self {
+            library: library.with_sizes(
+                options.parcel_length,
+                options.parcel_width,
+                options.street_width,
+            ),
+        })
     }
 }
 
@@ -48,7 +59,9 @@ impl Splitter for TemplateSplitter {
     fn propose(&self, scene: &Scene<'_>, region: &Region) -> Vec<Proposal> {
         let options = scene.options;
         // A block of parcels is no larger than two rows of a long block.
-        if region.loops.len() != 1 || region.area > 3.0 * options.block_length * 2.6 * options.parcel_length {
+        if region.loops.len() != 1
+            || region.area > 3.0 * options.block_length * 2.6 * options.parcel_length
+        {
             return Vec::new();
         }
         let service = Service::of(region, options);
@@ -56,21 +69,40 @@ impl Splitter for TemplateSplitter {
             return Vec::new();
         }
         let plots = inset(region);
-        let [plot] = plots.as_slice() else { return Vec::new() };
+        let [plot] = plots.as_slice() else {
+            return Vec::new();
+        };
         if plot.rings.len() != 1 || !plot.has_access() {
             return Vec::new();
         }
         let mut best: Option<(f64, Warped)> = None;
-        let Ok(block) = template_region(plot) else { return Vec::new() };
+        let Ok(block) = template_region(plot) else {
+            return Vec::new();
+        };
         let candidates = match_templates(&self.library, &block, &MatchOptions::default());
         if scene.draft {
             // The paper picks the template by its boundary, before any warp.
             let lineage = Lineage::of(region, self.name());
-            let action = || Action::Fill(Fill { template: self.name().to_owned(), ..Fill::default() });
-            return candidates.first().map(|c| Proposal { cost: c.distortion, action: action(), lineage }).into_iter().collect();
+            let action = || {
+                Action::Fill(Fill {
+                    template: self.name().to_owned(),
+                    ..Fill::default()
+                })
+            };
+            return candidates
+                .first()
+                .map(|c| Proposal {
+                    cost: c.distortion,
+                    action: action(),
+                    lineage,
+                })
+                .into_iter()
+                .collect();
         }
         for candidate in candidates.iter().take(WARPED) {
-            let Ok(warped) = warp(&self.library, &block, candidate, &WarpOptions::default()) else { continue };
+            let Ok(warped) = warp(&self.library, &block, candidate, &WarpOptions::default()) else {
+                continue;
+            };
             if warped.energy > options.template_energy || undesirable(&warped) > UNDESIRABLE {
                 continue;
             }
@@ -87,7 +119,9 @@ impl Splitter for TemplateSplitter {
                 best = Some((cost, warped));
             }
         }
-        best.into_iter().map(|(cost, warped)| proposal(region, cost, warped)).collect()
+        best.into_iter()
+            .map(|(cost, warped)| proposal(region, cost, warped))
+            .collect()
     }
 }
 
@@ -98,13 +132,26 @@ fn park_is_due(region: &Region) -> bool {
 }
 
 fn template_region(plot: &Plot) -> std::result::Result<TemplateRegion, template_warp::WarpError> {
-    let uses = plot.sides[0].iter().map(|s| if s.access { EdgeUse::Street } else { EdgeUse::NoStreet }).collect();
+    let uses = plot.sides[0]
+        .iter()
+        .map(|s| {
+            if s.access {
+                EdgeUse::Street
+            } else {
+                EdgeUse::NoStreet
+            }
+        })
+        .collect();
     TemplateRegion::new(plot.rings[0].clone(), uses, "block")
 }
 
 /// Share of a warp's parcels that are undesirable (paper Fig. 12).
 fn undesirable(warped: &Warped) -> f64 {
-    let parcels: Vec<_> = warped.faces.iter().filter(|f| f.label == "parcel").collect();
+    let parcels: Vec<_> = warped
+        .faces
+        .iter()
+        .filter(|f| f.label == "parcel")
+        .collect();
     let bad = parcels
         .iter()
         .filter(|f| {
@@ -120,7 +167,10 @@ fn undesirable(warped: &Warped) -> f64 {
 }
 
 fn proposal(region: &Region, cost: f64, warped: Warped) -> Proposal {
-    let lineage = Lineage { energy: Some(warped.energy), ..Lineage::of(region, "template") };
+    let lineage = Lineage {
+        energy: Some(warped.energy),
+        ..Lineage::of(region, "template")
+    };
     let faces = warped
         .faces
         .into_iter()
@@ -137,6 +187,14 @@ fn proposal(region: &Region, cost: f64, warped: Warped) -> Proposal {
             access_exempt: face.access_exempt,
         })
         .collect();
-    let fill = Fill { faces, streets: warped.centrelines, template: warped.template };
-    Proposal { cost, action: Action::Fill(fill), lineage }
+    let fill = Fill {
+        faces,
+        streets: warped.centrelines,
+        template: warped.template,
+    };
+    Proposal {
+        cost,
+        action: Action::Fill(fill),
+        lineage,
+    }
 }

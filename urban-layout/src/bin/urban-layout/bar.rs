@@ -15,7 +15,9 @@ impl Bar {
             return Self(None);
         }
         let bar = ProgressBar::new(1000);
-        if let Ok(style) = ProgressStyle::with_template("{msg:>12} {wide_bar} {percent:>3} %  {elapsed}") {
+        if let Ok(style) =
+            ProgressStyle::with_template("{msg:>12} {wide_bar} {percent:>3} %  {elapsed}")
+        {
             bar.set_style(style);
         }
         Self(Some(bar))

@@ -9,13 +9,23 @@ pub(crate) fn run(job: &Check) -> Result<u8> {
     let site = job.common.read(&job.site)?;
     let text = std::fs::read_to_string(&job.layout).map_err(|e| Error::reading(&job.layout, e))?;
     let layout = read_layout(&text, &site.frame)?;
-    let certificate = check(&site, &layout, &CheckOptions { frontage: job.frontage, ..CheckOptions::default() });
+    let certificate = check(
+        &site,
+        &layout,
+        &CheckOptions {
+            frontage: job.frontage,
+            ..CheckOptions::default()
+        },
+    );
     if job.common.json {
         println!("{}", certificate.to_json());
     } else {
         for law in &certificate.laws {
             let word = if law.passed { "ok    " } else { "FAILED" };
-            println!("{word} {:<24} {:.3} (allowed {:.3})", law.law, law.measured, law.allowed);
+            println!(
+                "{word} {:<24} {:.3} (allowed {:.3})",
+                law.law, law.measured, law.allowed
+            );
             for line in &law.detail {
                 println!("         {line}");
             }

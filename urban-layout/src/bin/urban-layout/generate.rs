@@ -12,7 +12,9 @@ use crate::bar::Bar;
 
 pub(crate) fn run(job: &Generate) -> Result<u8> {
     if job.variations == 0 {
-        return Err(urban_layout::Error::usage("--variations is 0; ask for at least 1"));
+        return Err(urban_layout::Error::usage(
+            "--variations is 0; ask for at least 1",
+        ));
     }
     let start = Instant::now();
     let site = job.common.read(&job.site)?;
@@ -24,7 +26,11 @@ pub(crate) fn run(job: &Generate) -> Result<u8> {
     let mut cards = Vec::new();
     let mut figures = Vec::new();
     for k in 0..job.variations {
-        let folder = if job.variations == 1 { PathBuf::new() } else { PathBuf::from(format!("{:03}", k + 1)) };
+        let folder = if job.variations == 1 {
+            PathBuf::new()
+        } else {
+            PathBuf::from(format!("{:03}", k + 1))
+        };
         let began = Instant::now();
         let plan = {
             let mut bar = Bar::new();
@@ -32,7 +38,13 @@ pub(crate) fn run(job: &Generate) -> Result<u8> {
         };
         let m = figures_of(&plan, read, began);
         files.extend(files_of(job, &plan, &m, &job.out.join(&folder))?);
-        cards.push((folder.join("layout.svg").to_string_lossy().replace('\\', "/"), m.clone()));
+        cards.push((
+            folder
+                .join("layout.svg")
+                .to_string_lossy()
+                .replace('\\', "/"),
+            m.clone(),
+        ));
         figures.push(m);
     }
     if job.variations > 1 {
@@ -68,20 +80,30 @@ fn figures_of(plan: &Plan, read: f64, began: Instant) -> Metrics {
     m
 }
 
-fn files_of(job: &Generate, plan: &Plan, m: &Metrics, folder: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>> {
+fn files_of(
+    job: &Generate,
+    plan: &Plan,
+    m: &Metrics,
+    folder: &Path,
+) -> Result<Vec<(PathBuf, Vec<u8>)>> {
     let site = plan.site();
     let svg = io::svg::svg(&plan.layout, site, &SvgOptions::default());
     let json = serde_json::to_string_pretty(&m.to_json())
         .map_err(|e| urban_layout::Error::stage("metrics", e))?;
     let mut files = vec![
-        (folder.join("layout.geojson"), io::layout_geojson::layout_to_geojson(&plan.layout, &site.frame).into_bytes()),
+        (
+            folder.join("layout.geojson"),
+            io::layout_geojson::layout_to_geojson(&plan.layout, &site.frame).into_bytes(),
+        ),
         (folder.join("metrics.json"), (json + "\n").into_bytes()),
     ];
     if job.png {
         #[cfg(feature = "png")]
         files.push((folder.join("layout.png"), io::png::png(&svg, 2000)?));
         #[cfg(not(feature = "png"))]
-        return Err(urban_layout::Error::usage("--png: this build has no `png` feature; rebuild with it or convert layout.svg"));
+        return Err(urban_layout::Error::usage(
+            "--png: this build has no `png` feature; rebuild with it or convert layout.svg",
+        ));
     }
     files.push((folder.join("layout.svg"), svg.into_bytes()));
     Ok(files)
