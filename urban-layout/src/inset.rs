@@ -37,6 +37,10 @@ pub(crate) type Shapes = Vec<Vec<Vec<[f64; 2]>>>;
 /// Overlap of neighbouring strips, metres: enough to leave no crack between
 /// them after the boolean operation's rounding.
 const LAP: f64 = 1e-4;
+/// An inset edge lies at its source's own distance, but for the sag of a
+/// corner's chords, metres, and runs along it, but for half of a corner's arc.
+const MOST_GAP: f64 = 0.15;
+const MOST_SKEW: f64 = 0.4;
 /// Plots smaller than this are street verge, square metres.
 const LEAST_PLOT: f64 = 1.0;
 
@@ -220,10 +224,11 @@ fn label(region: &Region, ring: &[Coord<f64>]) -> Vec<PlotSide> {
             let mut best: (f64, Option<&Side>) = (f64::INFINITY, None);
             for (p, q, side) in region.edges() {
                 let near = dist(middle, nearest_on(p, q, middle).0);
-                // Of two edges at the right distance, the one that runs alongside.
-                let skew = 1.0 - dot(dir, unit(q - p));
-                let off = (near - side.inset).abs() + 0.05 * skew;
-                if off < best.0 {
+                let (gap, skew) = ((near - side.inset).abs(), 1.0 - dot(dir, unit(q - p)));
+                // Of two edges at the right distance, the one that runs
+                // alongside; a cut through open land borders on neither.
+                let off = gap + 0.05 * skew;
+                if gap < MOST_GAP && skew < MOST_SKEW && off < best.0 {
                     best = (off, Some(side));
                 }
             }

@@ -9,6 +9,12 @@ pub(crate) fn run(job: &Check) -> Result<u8> {
     let site = job.common.read(&job.site)?;
     let text = std::fs::read_to_string(&job.layout).map_err(|e| Error::reading(&job.layout, e))?;
     let layout = read_layout(&text, &site.frame)?;
+    if layout.tiles.is_empty() {
+        return Err(Error::input(format!(
+            "{} holds no tile of a layout (parcel, street_area, ...); give the layout.geojson that `generate` writes",
+            job.layout.display()
+        )));
+    }
     let certificate = check(
         &site,
         &layout,
