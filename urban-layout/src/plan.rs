@@ -161,7 +161,7 @@ fn fill(
         .filter(|l| l.path.is_within(root))
         .cloned()
         .collect();
-    let filled = planner::parallel::map(&leaves, |leaf| {
+    let filled = planner::parallel::map(&leaves, options.threads, |leaf| {
         let region = tree.region(leaf.face, &leaf.path, options.seed);
         let scene = crate::splitter::Scene {
             network: &tree.network,

@@ -40,7 +40,7 @@ pub(super) fn connect(tree: &mut Tree, site: &Site, options: &PlanOptions) -> Ve
                     .map(|l| Pending::new(l.face, l.path.clone())),
             )
             .collect();
-        let found = super::parallel::map(&open, |p| {
+        let found = super::parallel::map(&open, options.threads, |p| {
             let region = tree.region(p.face, &p.path, options.seed);
             let home = region.loops.first().and_then(|l| {
                 let inner = crate::plane::inner_point(

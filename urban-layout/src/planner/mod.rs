@@ -141,7 +141,7 @@ pub(crate) fn split(
         if !progress.report(Stage::Split, 1.0 - open / whole) {
             return Err(Error::cancelled());
         }
-        let asked = parallel::map(&pending, |p| {
+        let asked = parallel::map(&pending, options.threads, |p| {
             let region = tree.region(p.face, &p.path, options.seed);
             ask(&tree.network, &region, splitters, options)
         });

@@ -62,7 +62,7 @@ impl<'a> RowFit<'a> {
     }
 
     /// The misfit of land `width` metres wide between two streets' edges, 0 to 1.
-    fn at_width(&self, width: f64) -> f64 {
+    pub(crate) fn at_width(&self, width: f64) -> f64 {
         if width <= 0.0 {
             return 1.0;
         }

@@ -27,6 +27,12 @@ pub struct StreamlineSplitter;
 
 /// Proposals offered to the planner for one region.
 const OFFERED: usize = 6;
+/// Streets made ready, from which those that go together are picked.
+const MADE: usize = 16;
+/// How much less several streets at once cost than the best of them alone.
+const TOGETHER: f64 = 0.05;
+/// Largest misfit of the rows between two streets laid at once (0 to 1).
+const PARALLEL_MISFIT: f64 = 0.03;
 /// Candidates tried before a region counts as one that no street fits.
 const TRIED: usize = 400;
 /// Half the width of the gap opened along a street inside a region, metres.
@@ -212,33 +218,93 @@ fn propose_from(
         .collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let maker = CutMaker::new(scene, region);
-    let mut made: Vec<(f64, usize, Cut, [f64; 4])> = Vec::new();
+    let mut made: Vec<Made> = Vec::new();
     for &(cost, index, parts) in order.iter().take(TRIED) {
-        let Some(path) = &paths[index] else { continue };
-        let Some(cut) = maker.make(path) else {
+        let Some(cut) = paths[index].as_ref().and_then(|path| maker.make(path)) else {
             continue;
         };
-        if made.iter().all(|(_, _, other, _)| !alike(&cut, other)) {
-            made.push((cost, index, cut, parts));
+        if made.iter().all(|other| !alike(&cut, &other.cut)) {
+            let family = lines[index].family;
+            made.push(Made {
+                cost,
+                cut,
+                parts,
+                family,
+            });
         }
-        if made.len() >= OFFERED {
+        if made.len() >= MADE {
             break;
         }
     }
-    made.into_iter()
-        .map(|(cost, _, cut, parts)| Proposal {
-            cost,
-            action: Action::Cut(vec![cut]),
-            lineage: Lineage {
-                split: region.path.to_string(),
-                by: "streamline".to_owned(),
-                field: Some(options.field.as_str().to_owned()),
-                scores: Some(parts),
-                energy: None,
-                seed: region.seed,
-            },
-        })
-        .collect()
+    let lineage = |parts| Lineage {
+        split: region.path.to_string(),
+        by: "streamline".to_owned(),
+        field: Some(options.field.as_str().to_owned()),
+        scores: Some(parts),
+        energy: None,
+        seed: region.seed,
+    };
+    let proposal = |cost: f64, cuts: Vec<Cut>, parts| Proposal {
+        cost,
+        action: Action::Cut(cuts),
+        lineage: lineage(parts),
+    };
+    let mut out: Vec<Proposal> = Vec::new();
+    if !service.too_long {
+        // As long as a block: what is left to choose is where its neighbours
+        // run, all at once.
+        let together = companions(&made, &rows, options);
+        if let ([first, ..], 2..) = (made.as_slice(), together.len()) {
+            out.push(proposal(first.cost - TOGETHER, together, first.parts));
+        }
+    }
+    out.extend(
+        made.into_iter()
+            .take(OFFERED)
+            .map(|m| proposal(m.cost, vec![m.cut], m.parts)),
+    );
+    out
+}
+
+/// A street that can be built, with what is known of its streamline.
+struct Made {
+    cost: f64,
+    cut: Cut,
+    parts: [f64; 4],
+    family: u8,
+}
+
+/// The best street, and those beside it that run along it at distances that
+/// rows of parcels fill.
+fn companions(made: &[Made], rows: &RowFit<'_>, options: &PlanOptions) -> Vec<Cut> {
+    let Some(first) = made.first() else {
+        return Vec::new();
+    };
+    let mut chosen = vec![first.cut.clone()];
+    for other in made[1..].iter().filter(|m| m.family == first.family) {
+        let fits = |cut: &Cut| {
+            let line = cut.points();
+            let gaps: Vec<f64> = crate::plane::resample(&other.cut.points(), 20.0)
+                .into_iter()
+                .map(|p| distance_to(&line, p))
+                .collect();
+            let least = gaps.iter().copied().fold(f64::INFINITY, f64::min);
+            let most = gaps.iter().copied().fold(0.0, f64::max);
+            let mean = gaps.iter().sum::<f64>() / gaps.len().max(1) as f64;
+            most < 1.3 * least && rows.at_width(mean - options.street_width) < PARALLEL_MISFIT
+        };
+        if chosen.iter().all(fits) {
+            chosen.push(other.cut.clone());
+        }
+    }
+    chosen
+}
+
+/// Distance of a point from a polyline.
+fn distance_to(line: &[Coord<f64>], p: Coord<f64>) -> f64 {
+    line.windows(2)
+        .map(|w| dist(crate::plane::nearest_on(w[0], w[1], p).0, p))
+        .fold(f64::INFINITY, f64::min)
 }
 
 /// Candidate streamlines from all inner vertices in both orientations.
