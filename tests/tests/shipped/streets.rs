@@ -3,8 +3,9 @@
 
 use network_opt::{PlanarMesh, Wire};
 use urban_layout::layout::Layout;
-use urban_layout::PlanOptions;
 use urban_layout_tests::{Shipped, SITES};
+
+use crate::plan;
 
 /// Nearer than this two points are one, metres: far below the 3 m that any
 /// frontage takes, far above the rounding of coordinates.
@@ -25,8 +26,7 @@ fn mesh_of(layout: &Layout) -> PlanarMesh<()> {
 }
 
 fn streets_make_a_sound_mesh(shipped: Shipped) {
-    let plan = shipped.plan(&PlanOptions::default());
-    let layout = &plan.layout;
+    let layout = &plan(shipped).layout;
     let mesh = mesh_of(layout);
     mesh.validate().expect(shipped.name);
 
