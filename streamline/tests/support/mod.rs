@@ -11,7 +11,7 @@ pub(crate) type P = Coord<f64>;
 pub(crate) fn cases() -> ProptestConfig {
     let long = std::env::var("URBAN_LAYOUT_LONG").is_ok_and(|value| value == "1");
     ProptestConfig {
-        cases: if long { 2000 } else { 24 },
+        cases: if long { 500 } else { 24 },
         ..ProptestConfig::default()
     }
 }
