@@ -5,8 +5,12 @@
 //! orientation; barycentre goes to barycentre in all of them, so what is left is
 //! a 2x2 matrix.
 
-use crate::geometry::{cross, dot, exceeds, norm, p, P};
+use crate::geometry::{dot, exceeds, norm, p, P};
 use nalgebra::Matrix2;
+
+mod principal;
+
+pub use principal::PrincipalAffine;
 
 /// An affine map of the plane: x -> `linear` x + `translation`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,16 +81,6 @@ pub struct Similarity {
     pub min_scale: f64,
     /// Greatest scale.
     pub max_scale: f64,
-}
-
-/// Scales along the axes of the template's own frame, each within its range,
-/// then a rotation: rectangles stay rectangles.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PrincipalAffine {
-    /// Range of the scale along x.
-    pub x: [f64; 2],
-    /// Range of the scale along y.
-    pub y: [f64; 2],
 }
 
 /// Any affine map whose area scale lies in [1 / `max_area_ratio`,
@@ -186,119 +180,6 @@ impl Deformation for Similarity {
             1.0
         };
         m.scaled_rotation(clamp(free, [self.min_scale, self.max_scale]))
-    }
-}
-
-impl Deformation for PrincipalAffine {
-    /// For a rotation by t the two scales separate, so the residual is a
-    /// function of t alone: twice the clamped parabolas' minima. It is minimised
-    /// from the best of eight directions and the similarity's angle by safeguarded
-    /// Newton steps. (The paper stops at the similarity's angle, up to 3 % above.)
-    fn register(&self, from: &[P], to: &[P], weights: &[f64]) -> Affine {
-        let m = Moments::new(from, to, weights);
-        let z = m.complex();
-        let fit = AngleFit { m: &m, class: self };
-        let l = norm(z);
-        let mut best = if l > 0.0 {
-            p(z.x / l, z.y / l)
-        } else {
-            p(1.0, 0.0)
-        };
-        let mut best_cost = fit.cost(best);
-        let h = std::f64::consts::FRAC_1_SQRT_2;
-        for u in [
-            p(1., 0.),
-            p(h, h),
-            p(0., 1.),
-            p(-h, h),
-            p(-1., 0.),
-            p(-h, -h),
-            p(0., -1.),
-            p(h, -h),
-        ] {
-            let cost = fit.cost(u);
-            if cost < best_cost - 1e-9 * cost.abs() {
-                (best, best_cost) = (u, cost);
-            }
-        }
-        for _ in 0..40 {
-            let (slope, curvature) = fit.derivatives(best);
-            let mut step = if curvature > 0.0 {
-                -slope / curvature
-            } else {
-                -slope.signum() * 0.2
-            };
-            step = step.clamp(-0.4, 0.4);
-            let mut moved = false;
-            // Halving: the residual is only piecewise smooth where a clamp sets in.
-            for _ in 0..30 {
-                let (s, c) = step.sin_cos();
-                let u = p(best.x * c - best.y * s, best.x * s + best.y * c);
-                let cost = fit.cost(u);
-                if cost < best_cost {
-                    (best, best_cost) = (u, cost);
-                    moved = true;
-                    break;
-                }
-                step *= 0.5;
-                if step.abs() < 1e-12 {
-                    break;
-                }
-            }
-            if !moved || step.abs() < 1e-10 {
-                break;
-            }
-        }
-        let (sx, sy) = fit.scales(best);
-        let (c, s) = (best.x, best.y);
-        m.map([[sx * c, -sy * s], [sx * s, sy * c]])
-    }
-}
-
-/// The residual of [`PrincipalAffine`] as a function of the rotation, less its
-/// constant part.
-struct AngleFit<'a> {
-    m: &'a Moments,
-    class: &'a PrincipalAffine,
-}
-
-impl AngleFit<'_> {
-    /// Best scales for the rotation (cos, sin) = `u`.
-    fn scales(&self, u: P) -> (f64, f64) {
-        let m = self.m;
-        let a = dot(u, m.mx);
-        let b = cross(u, m.my);
-        let scale = |a: f64, s: f64, range| clamp(if s > 0.0 { a / s } else { 1.0 }, range);
-        (scale(a, m.sxx, self.class.x), scale(b, m.syy, self.class.y))
-    }
-
-    fn cost(&self, u: P) -> f64 {
-        let m = self.m;
-        let (a, b) = (dot(u, m.mx), cross(u, m.my));
-        let (sx, sy) = self.scales(u);
-        sx * (sx * m.sxx - 2.0 * a) + sy * (sy * m.syy - 2.0 * b)
-    }
-
-    /// First and second derivative of the cost by the angle. The scales are
-    /// optimal, so they drop out of the first (envelope theorem); in the second
-    /// they count only while unclamped.
-    fn derivatives(&self, u: P) -> (f64, f64) {
-        let m = self.m;
-        let (a, b) = (dot(u, m.mx), cross(u, m.my));
-        let (da, db) = (cross(u, m.mx), -dot(u, m.my));
-        let (sx, sy) = self.scales(u);
-        let inner = |s: f64, [lo, hi]: [f64; 2], d: f64, sum: f64| {
-            if s > lo && s < hi && sum > 0.0 {
-                -2.0 * d * d / sum
-            } else {
-                0.0
-            }
-        };
-        let slope = -2.0 * (sx * da + sy * db);
-        let curvature = 2.0 * (sx * a + sy * b)
-            + inner(sx, self.class.x, da, m.sxx)
-            + inner(sy, self.class.y, db, m.syy);
-        (slope, curvature)
     }
 }
 
