@@ -66,23 +66,32 @@ pub fn generate_with(
     let (mut tree, roots) = Tree::new(site)?;
     grow(&mut tree, site, roots, splitters, options, progress)?;
     let split = start.elapsed().as_secs_f64();
+    planner::backtrack(&mut tree, site, splitters, options, progress)?;
+    let begun = Begun {
+        start,
+        split,
+        backtrack: start.elapsed().as_secs_f64() - split,
+    };
+    let everything = Path::everything();
     finish(
         tree,
         site,
-        &Path::everything(),
+        &everything,
         splitters,
         options,
         progress,
-        split,
-        start,
+        &begun,
     )
 }
 
+/// When a run began, and the seconds that its search took.
+struct Begun {
+    start: Instant,
+    split: f64,
+    backtrack: f64,
+}
+
 /// Optimises and fills what lies below `root`, and assembles the layout.
-#[allow(
-    clippy::too_many_arguments,
-    reason = "the state of a run, passed once from either of two callers"
-)]
 fn finish(
     mut tree: Tree,
     site: &Site,
@@ -90,8 +99,7 @@ fn finish(
     splitters: &[Box<dyn Splitter>],
     options: &PlanOptions,
     progress: &mut dyn Progress,
-    split: f64,
-    start: Instant,
+    begun: &Begun,
 ) -> Result<Plan> {
     let begin = Instant::now();
     if options.optimize {
@@ -114,9 +122,10 @@ fn finish(
         ("assemble".to_owned(), begin.elapsed().as_secs_f64()),
     ];
     let seconds = Seconds {
-        split,
+        split: begun.split,
+        backtrack: begun.backtrack,
         optimize,
-        total: start.elapsed().as_secs_f64(),
+        total: begun.start.elapsed().as_secs_f64(),
         others,
         ..Seconds::default()
     };
@@ -263,7 +272,11 @@ impl Plan {
             &self.options,
             progress,
         )?;
-        let split = start.elapsed().as_secs_f64();
+        let begun = Begun {
+            start,
+            split: start.elapsed().as_secs_f64(),
+            backtrack: 0.0,
+        };
         finish(
             tree,
             &self.site,
@@ -271,8 +284,7 @@ impl Plan {
             &splitters,
             &self.options,
             progress,
-            split,
-            start,
+            &begun,
         )
     }
 

@@ -209,12 +209,28 @@ fn sew(layout: &mut Layout, ids: &mut Ids) {
     let report = seam_to(&mut polygons, &layout.site, SEAM);
     let gone: BTreeSet<usize> = report.collapsed.into_iter().collect();
     let rings = polygons.split_off(built.len());
+    // Where a tile is thinner than the tolerance, its sides meet and it falls
+    // apart: the largest piece goes on as the tile, the rest is open land.
+    let mut scraps = Vec::new();
+    for (number, pieces) in report.pieces {
+        let Some(tile) = built.get(number) else {
+            continue;
+        };
+        for (k, polygon) in pieces.into_iter().enumerate() {
+            if k == 0 {
+                polygons[number] = polygon;
+            } else {
+                scraps.push(scrap_of(tile, polygon, ids.next(mix(tile.id), k)));
+            }
+        }
+    }
     layout.tiles = built
         .into_iter()
         .zip(polygons)
         .enumerate()
         .filter(|(i, _)| !gone.contains(i))
         .map(|(_, (tile, polygon))| Tile { polygon, ..tile })
+        .chain(scraps)
         .collect();
     let directed: Vec<Polygon<f64>> = rings
         .into_iter()
@@ -235,6 +251,22 @@ fn sew(layout: &mut Layout, ids: &mut Ids) {
             id: ids.next(mix(0x57ee7), k),
             ..street_tile(polygon)
         });
+    }
+}
+
+/// A piece that fell off a tile: of the tile's kind, but no parcel, since its
+/// front, if it has one, is no wider than the tolerance where it broke off.
+fn scrap_of(tile: &Tile, polygon: Polygon<f64>, id: u64) -> Tile {
+    let kind = match tile.kind {
+        TileKind::Parcel => TileKind::Park,
+        kind => kind,
+    };
+    Tile {
+        id,
+        kind,
+        polygon,
+        parcel: None,
+        ..tile.clone()
     }
 }
 

@@ -97,16 +97,16 @@ pub(super) fn connect(tree: &mut Tree, site: &Site, options: &PlanOptions) -> Ve
 }
 
 /// The connected components of the streets, and which of them lead out.
-struct Components {
-    of: BTreeMap<VertexId, usize>,
+pub(super) struct Components {
+    pub(super) of: BTreeMap<VertexId, usize>,
     /// Per component: does it reach a way out of the site?
-    out: Vec<bool>,
+    pub(super) out: Vec<bool>,
     /// Per component: the site's part it lies in.
-    part: Vec<usize>,
+    pub(super) part: Vec<usize>,
 }
 
 impl Components {
-    fn of(network: &Network, site: &Site) -> Self {
+    pub(super) fn of(network: &Network, site: &Site) -> Self {
         let mesh = &network.mesh;
         let mut of: BTreeMap<VertexId, usize> = BTreeMap::new();
         let (mut out, mut part) = (Vec::new(), Vec::new());
@@ -136,6 +136,15 @@ impl Components {
             part.push(home);
         }
         Self { of, out, part }
+    }
+
+    /// Vertices of each component.
+    pub(super) fn sizes(&self) -> Vec<usize> {
+        let mut sizes = vec![0; self.out.len()];
+        for &component in self.of.values() {
+            sizes[component] += 1;
+        }
+        sizes
     }
 
     /// One component in each part of the site, each leading out.

@@ -17,6 +17,7 @@ use crate::region::{Place, Region};
 use crate::site::{RoadClass, Site};
 use crate::splitter::{Action, Cut, Fill, Proposal, Scene, Splitter};
 
+mod backtrack;
 mod connect;
 mod geodesic;
 mod improve;
@@ -24,6 +25,7 @@ pub(crate) mod parallel;
 mod reroll;
 pub mod seed;
 
+pub(crate) use backtrack::backtrack;
 pub(crate) use improve::improve;
 pub(crate) use reroll::clear;
 use seed::{mix, Path};

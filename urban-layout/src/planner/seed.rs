@@ -48,6 +48,20 @@ impl Path {
         self.0.starts_with(&other.0)
     }
 
+    /// The region around this one; `None` for a root.
+    #[must_use]
+    pub fn parent(&self) -> Option<Self> {
+        let (_, above) = self.0.split_last()?;
+        (!above.is_empty()).then(|| Self(above.to_vec()))
+    }
+
+    /// The smallest region that holds both; [`Path::everything`] if none does.
+    #[must_use]
+    pub fn common(&self, other: &Self) -> Self {
+        let same = self.0.iter().zip(&other.0).take_while(|(a, b)| a == b);
+        Self(self.0[..same.count()].to_vec())
+    }
+
     /// Reads `0.1.1.0`; `None` if a step is no number.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
@@ -106,6 +120,14 @@ mod tests {
         assert_eq!(Path::parse("0.1.1.0"), Some(path.clone()));
         assert!(path.is_within(&Path::root(0).child(1)));
         assert!(!path.is_within(&Path::root(0).child(0)));
+        assert_eq!(
+            path.parent().map(|p| p.to_string()).as_deref(),
+            Some("0.1.1")
+        );
+        assert_eq!(Path::root(3).parent(), None);
+        let cousin = Path::root(0).child(1).child(0);
+        assert_eq!(path.common(&cousin).to_string(), "0.1");
+        assert_eq!(path.common(&Path::root(1)), Path::everything());
         assert_ne!(path.hash(1), path.hash(2));
         assert_ne!(
             path.hash(1),

@@ -21,6 +21,7 @@ pub(crate) struct CutMaker<'a> {
     entries: Vec<(Coord<f64>, Coord<f64>)>,
     mouths: Vec<Coord<f64>>,
     needs_room: bool,
+    yields: bool,
 }
 
 /// A path across a region: points with the place of either end.
@@ -41,6 +42,10 @@ const MOST_TURN_DEG: f64 = 17.0;
 const MAJOR_SPACING: f64 = 150.0;
 /// A path end turns into the direction wanted there over this length, metres.
 const BEND: f64 = 45.0;
+/// Steps by which an end that yields slides along the boundary, and how many
+/// of them each way, metres.
+const SLIDE: f64 = 6.0;
+const SLIDES: u8 = 5;
 /// Share of a street's length that may lack room for parcels beside it.
 const CRAMPED_SHARE: f64 = 0.15;
 
@@ -73,7 +78,16 @@ impl<'a> CutMaker<'a> {
             entries,
             mouths,
             needs_room: true,
+            yields: false,
         }
+    }
+
+    /// Makes streets whose ends at the site's boundary may slide along it, and
+    /// look at its course rather than at the single edge: where a ragged
+    /// boundary lets no other street end.
+    pub(crate) fn yielding(mut self) -> Self {
+        self.yields = true;
+        self
     }
 
     /// Makes streets where parcels beside them may not fit: connections that
@@ -211,10 +225,28 @@ impl<'a> CutMaker<'a> {
                 return None;
             }
         }
+        let slides = self.yields && side.kind == SideKind::Boundary;
+        let steps = if slides { SLIDES } else { 0 };
+        (0..=steps)
+            .flat_map(|k| [f64::from(k), -f64::from(k)])
+            .map(|k| target + k * SLIDE)
+            .filter(|&s| s == target || near(s, 0.98 * keep_off).is_none())
+            .find_map(|s| self.end_at(place.ring, s, inward))
+    }
+
+    /// An end at a place along a ring of the region, and the direction in which
+    /// the street should leave there; `None` if none may stand there.
+    fn end_at(&self, ring: usize, target: f64, inward: Coord<f64>) -> Option<(Place, Coord<f64>)> {
+        let l = &self.region.loops[ring];
         let (edge, at) = l.at(target);
         let side = l.sides[edge];
         let (a, b) = l.edge(edge);
-        let normal = left(unit(b - a));
+        let normal = if self.yields && side.kind == SideKind::Boundary {
+            let reach = self.options.street_width;
+            left(unit(l.at(target + reach).1 - l.at(target - reach).1))
+        } else {
+            left(unit(b - a))
+        };
         if side.kind == SideKind::Element {
             return None;
         }
@@ -248,14 +280,7 @@ impl<'a> CutMaker<'a> {
         if off > 55f64.to_radians() {
             return None;
         }
-        Some((
-            Place {
-                ring: place.ring,
-                edge,
-                at,
-            },
-            normal,
-        ))
+        Some((Place { ring, edge, at }, normal))
     }
 
     /// The laws of a street, on its shaped points.

@@ -217,24 +217,30 @@ fn propose_from(
         })
         .collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let maker = CutMaker::new(scene, region);
-    let mut made: Vec<Made> = Vec::new();
-    for &(cost, index, parts) in order.iter().take(TRIED) {
-        let Some(cut) = paths[index].as_ref().and_then(|path| maker.make(path)) else {
-            continue;
-        };
-        if made.iter().all(|other| !alike(&cut, &other.cut)) {
-            let family = lines[index].family;
-            made.push(Made {
-                cost,
-                cut,
-                parts,
-                family,
-            });
+    let pick = |maker: &CutMaker<'_>| {
+        let mut made: Vec<Made> = Vec::new();
+        for &(cost, index, parts) in order.iter().take(TRIED) {
+            let Some(cut) = paths[index].as_ref().and_then(|path| maker.make(path)) else {
+                continue;
+            };
+            if made.iter().all(|other| !alike(&cut, &other.cut)) {
+                let family = lines[index].family;
+                made.push(Made {
+                    cost,
+                    cut,
+                    parts,
+                    family,
+                });
+            }
+            if made.len() >= MADE {
+                break;
+            }
         }
-        if made.len() >= MADE {
-            break;
-        }
+        made
+    };
+    let mut made = pick(&CutMaker::new(scene, region));
+    if made.is_empty() {
+        made = pick(&CutMaker::new(scene, region).yielding());
     }
     let lineage = |parts| Lineage {
         split: region.path.to_string(),
