@@ -11,7 +11,8 @@ use crate::planner::{self, seed::Path, Pending, Tree};
 use crate::progress::{Progress, Stage};
 use crate::site::Site;
 use crate::splitter::{
-    Action, ParkFill, SkeletonParceler, Splitter, StreamlineSplitter, TemplateSplitter,
+    Action, ParkFill, ReachSplitter, SkeletonParceler, Splitter, StreamlineSplitter,
+    TemplateSplitter,
 };
 
 /// A finished plan: the layout, and the state from which regions of it can be
@@ -46,6 +47,7 @@ pub fn standard_splitters(options: &PlanOptions) -> Result<Vec<Box<dyn Splitter>
     Ok(vec![
         Box::new(TemplateSplitter::new(options)?),
         Box::new(StreamlineSplitter),
+        Box::new(ReachSplitter),
         Box::new(SkeletonParceler),
         Box::new(ParkFill),
     ])

@@ -13,7 +13,7 @@ use crate::plane::dist;
 use crate::planner::{apply, Pending, Tree};
 use crate::region::{Place, Region};
 use crate::site::Site;
-use crate::splitter::{Cut, CutMaker, Path2, Scene};
+use crate::splitter::{Cut, CutMaker, Path2, Scene, Ways};
 
 /// Streets tried between the places of one region, nearest pairs first.
 const TRIED: usize = 600;
@@ -274,7 +274,7 @@ fn winding_link(
     let place = |s: &&Spot| s.place.at;
     let starts: Vec<Coord<f64>> = from.iter().map(place).collect();
     let goals: Vec<Coord<f64>> = to.iter().map(place).collect();
-    let (i, j, points) = super::geodesic::path(region, &starts, &goals)?;
+    let (i, j, points) = Ways::of(region)?.path(&starts, &goals)?;
     let length = crate::plane::length(&points);
     let cut = maker.make(&Path2 {
         from: from[i].place,

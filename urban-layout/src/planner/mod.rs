@@ -19,7 +19,6 @@ use crate::splitter::{Action, Cut, Fill, Proposal, Scene, Splitter};
 
 mod backtrack;
 mod connect;
-mod geodesic;
 mod improve;
 pub(crate) mod parallel;
 mod reroll;

@@ -48,6 +48,8 @@ const SLIDE: f64 = 6.0;
 const SLIDES: u8 = 5;
 /// Share of a street's length that may lack room for parcels beside it.
 const CRAMPED_SHARE: f64 = 0.15;
+/// The same for a street that yields.
+const YIELDING_SHARE: f64 = 0.4;
 
 impl<'a> CutMaker<'a> {
     pub(crate) fn new(scene: &Scene<'a>, region: &'a Region) -> Self {
@@ -82,9 +84,10 @@ impl<'a> CutMaker<'a> {
         }
     }
 
-    /// Makes streets whose ends at the site's boundary may slide along it, and
-    /// look at its course rather than at the single edge: where a ragged
-    /// boundary lets no other street end.
+    /// Makes streets that yield: their ends at the site's boundary may slide
+    /// along it, and look at its course rather than at the single edge; and they
+    /// may pass through necks of the land and have lots on one side only. For
+    /// regions in which no better street can be built.
     pub(crate) fn yielding(mut self) -> Self {
         self.yields = true;
         self
@@ -362,11 +365,17 @@ impl<'a> CutMaker<'a> {
                     cramped += 1;
                 }
             }
-            if i > skip && i + skip < n && self.grid.nearest(points[i], 2.2 * half).is_some() {
+            let clear = if self.yields { 1.15 } else { 2.2 } * half;
+            if i > skip && i + skip < n && self.grid.nearest(points[i], clear).is_some() {
                 return false;
             }
         }
-        (cramped as f64) <= CRAMPED_SHARE * count as f64
+        let share = if self.yields {
+            YIELDING_SHARE
+        } else {
+            CRAMPED_SHARE
+        };
+        (cramped as f64) <= share * count as f64
     }
 }
 

@@ -12,8 +12,10 @@ use crate::options::PlanOptions;
 use crate::region::{Place, Region};
 
 mod cut;
+mod geodesic;
 mod parcels;
 mod park;
+mod reach;
 mod rows;
 mod service;
 mod streamlines;
@@ -21,10 +23,12 @@ mod templates;
 
 pub use parcels::SkeletonParceler;
 pub use park::ParkFill;
+pub use reach::ReachSplitter;
 pub use streamlines::StreamlineSplitter;
 pub use templates::TemplateSplitter;
 
 pub(crate) use cut::{smooth, CutMaker, Path2};
+pub(crate) use geodesic::Ways;
 pub(crate) use service::Service;
 pub(crate) use streamlines::{imbalance, mesh_of};
 
