@@ -127,7 +127,7 @@ pub(crate) fn distance_to_segment(p: Coord<f64>, a: Coord<f64>, b: Coord<f64>) -
 }
 
 /// Parameters (on `a b`, on `c d`) where two segments cross or touch, if they
-/// are not parallel.
+/// are not parallel (to 1e-12 radians: over a kilometre a nanometre).
 pub(crate) fn crossing(
     a: Coord<f64>,
     b: Coord<f64>,
@@ -136,7 +136,7 @@ pub(crate) fn crossing(
 ) -> Option<(f64, f64)> {
     let (u, v, w) = (minus(b, a), minus(d, c), minus(c, a));
     let det = cross(u, v);
-    if det == 0.0 {
+    if det * det <= 1e-24 * dot(u, u) * dot(v, v) {
         return None;
     }
     let (t, s) = (cross(w, v) / det, cross(w, u) / det);

@@ -22,7 +22,7 @@ pub struct ReachSplitter;
 /// Land out of reach that is worth a street of its own, in ideal parcels.
 const WORTH: f64 = 4.0;
 /// The least land that a street opens, over the land that it takes.
-const GAIN: f64 = 2.0;
+const GAIN: f64 = 3.0;
 /// Ends tried at the boundary, and starts tried for each.
 const GOALS: usize = 8;
 const STARTS: usize = 3;

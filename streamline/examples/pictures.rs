@@ -1,6 +1,6 @@
 //! Draws the picture of the README.
 //!
-//! `cargo run -p streamlines --example doc_images` writes
+//! `cargo run -p streamlines --example pictures` writes
 //! `images/candidates.svg` into the crate.
 
 use geo_types::{coord, polygon, Coord, Polygon};
