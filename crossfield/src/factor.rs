@@ -8,16 +8,20 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
-use sprs::CsMat;
+use sprs::{CsMatI, SpIndex};
 
 use crate::FieldError;
 
 /// Solves `matrix * x = rhs` for each of the given columns, in place.
 ///
-/// `matrix` is symmetric positive definite, in compressed columns. The
-/// supernodal method is forced: the automatic choice falls back to a slower
-/// one on planar meshes. One thread, so that results are the same everywhere.
-pub(crate) fn solve(matrix: &CsMat<f64>, columns: &mut [Vec<f64>]) -> Result<(), FieldError> {
+/// `matrix` is symmetric positive definite, in compressed columns; its upper
+/// triangle alone is read, and need be there. The supernodal method is
+/// forced: the automatic choice falls back to a slower one on planar meshes.
+/// One thread, so that results are the same everywhere (and two are slower).
+pub(crate) fn solve<I: SpIndex + faer::Index>(
+    matrix: &CsMatI<f64, I>,
+    columns: &mut [Vec<f64>],
+) -> Result<(), FieldError> {
     let singular = |why: String| FieldError::SingularSystem { why };
     let count = matrix.rows();
     let pointers = matrix.indptr();
@@ -35,7 +39,7 @@ pub(crate) fn solve(matrix: &CsMat<f64>, columns: &mut [Vec<f64>]) -> Result<(),
     };
     let symbolic = factorize_symbolic_cholesky(
         view.symbolic(),
-        Side::Lower,
+        Side::Upper,
         SymmetricOrdering::Amd,
         parameters,
     )
@@ -49,7 +53,7 @@ pub(crate) fn solve(matrix: &CsMat<f64>, columns: &mut [Vec<f64>]) -> Result<(),
         .factorize_numeric_llt(
             &mut values,
             view,
-            Side::Lower,
+            Side::Upper,
             LltRegularization::default(),
             Par::Seq,
             MemStack::new(&mut memory),
@@ -72,14 +76,19 @@ pub(crate) fn solve(matrix: &CsMat<f64>, columns: &mut [Vec<f64>]) -> Result<(),
     Ok(())
 }
 
-/// Largest entry of `matrix * x - rhs`, over that of `|matrix| |x| + |rhs|`.
-fn residual(matrix: &CsMat<f64>, x: &[f64], rhs: &[f64]) -> f64 {
+/// Largest entry of `matrix * x - rhs`, over that of `|matrix| |x| + |rhs|`,
+/// from the upper triangle.
+fn residual<I: SpIndex>(matrix: &CsMatI<f64, I>, x: &[f64], rhs: &[f64]) -> f64 {
     let mut error: Vec<f64> = rhs.iter().map(|b| -b).collect();
     let mut scale: Vec<f64> = rhs.iter().map(|b| b.abs()).collect();
     for (j, column) in matrix.outer_iterator().enumerate() {
-        for (i, &entry) in column.iter() {
+        for (i, &entry) in column.iter().filter(|&(i, _)| i <= j) {
             error[i] += entry * x[j];
             scale[i] += (entry * x[j]).abs();
+            if i < j {
+                error[j] += entry * x[i];
+                scale[j] += (entry * x[i]).abs();
+            }
         }
     }
     let largest = |all: &[f64]| {
@@ -100,8 +109,8 @@ fn residual(matrix: &CsMat<f64>, x: &[f64], rhs: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    fn matrix(diagonal: f64) -> CsMat<f64> {
-        CsMat::new_csc(
+    fn matrix(diagonal: f64) -> CsMatI<f64, u32> {
+        CsMatI::new_csc(
             (2, 2),
             vec![0, 2, 4],
             vec![0, 1, 0, 1],

@@ -12,9 +12,12 @@ mod harmonic;
 mod measure;
 mod operators;
 mod plane;
+mod random;
 mod singularity;
+mod symmetry;
+mod system;
 
-pub use boundary::{BoundaryField, CornerRule};
+pub use boundary::{BoundaryField, CornerRule, Start};
 pub use cross::Cross;
 pub use distance::DistanceField;
 pub use domain::{Corner, Cursor, Domain, DomainOptions, Exit};
@@ -24,3 +27,4 @@ pub use geo_types;
 pub use harmonic::HarmonicField;
 pub use operators::Laplacian;
 pub use singularity::{IndexCheck, Singularity};
+pub use symmetry::{Rosy, Symmetry};
