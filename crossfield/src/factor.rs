@@ -1,9 +1,10 @@
 //! Sparse Cholesky factorisation: the only place that knows faer.
 
-use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
+use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::sparse::linalg::cholesky::{
-    factorize_symbolic_cholesky, CholeskySymbolicParams, SymmetricOrdering,
+    factorize_symbolic_cholesky, CholeskySymbolicParams, LltRef, SymbolicCholesky,
+    SymmetricOrdering,
 };
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
@@ -12,68 +13,92 @@ use sprs::{CsMatI, SpIndex};
 
 use crate::FieldError;
 
-/// Solves `matrix * x = rhs` for each of the given columns, in place.
-///
-/// `matrix` is symmetric positive definite, in compressed columns; its upper
-/// triangle alone is read, and need be there. The supernodal method is
-/// forced: the automatic choice falls back to a slower one on planar meshes.
-/// One thread, so that results are the same everywhere (and two are slower).
+/// Solves `matrix * x = rhs` for each of the given columns, in place: a
+/// [`Factor`] for one use.
 pub(crate) fn solve<I: SpIndex + faer::Index>(
     matrix: &CsMatI<f64, I>,
     columns: &mut [Vec<f64>],
 ) -> Result<(), FieldError> {
-    let singular = |why: String| FieldError::SingularSystem { why };
-    let count = matrix.rows();
-    let pointers = matrix.indptr();
-    let symbolic = SymbolicSparseColMatRef::new_checked(
-        count,
-        count,
-        pointers.raw_storage(),
-        None,
-        matrix.indices(),
-    );
-    let view = SparseColMatRef::new(symbolic, matrix.data());
-    let parameters = CholeskySymbolicParams {
-        supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-        ..Default::default()
-    };
-    let symbolic = factorize_symbolic_cholesky(
-        view.symbolic(),
-        Side::Upper,
-        SymmetricOrdering::Amd,
-        parameters,
-    )
-    .map_err(|error| singular(format!("{error:?}")))?;
-    let mut values = vec![0.0_f64; symbolic.len_val()];
-    let mut memory = MemBuffer::new(StackReq::any_of(&[
-        symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default()),
-        symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
-    ]));
-    let factor = symbolic
-        .factorize_numeric_llt(
-            &mut values,
-            view,
-            Side::Upper,
-            LltRegularization::default(),
-            Par::Seq,
-            MemStack::new(&mut memory),
-            Default::default(),
-        )
-        .map_err(|error| singular(format!("{error:?}")))?;
-    for column in columns {
-        let rhs = column.clone();
-        factor.solve_in_place_with_conj(
-            Conj::No,
-            MatMut::from_column_major_slice_mut(column, count, 1),
-            Par::Seq,
-            MemStack::new(&mut memory),
+    Factor::new(matrix)?.solve(columns)
+}
+
+/// The Cholesky factor of a symmetric positive definite matrix in compressed
+/// columns, of which the upper triangle alone is read, and need be there.
+///
+/// The supernodal method is forced: the automatic choice falls back to a
+/// slower one on planar meshes. One thread, so that results are the same
+/// everywhere (and two are slower).
+#[derive(Debug)]
+pub(crate) struct Factor<'a, I: SpIndex + faer::Index> {
+    matrix: &'a CsMatI<f64, I>,
+    symbolic: SymbolicCholesky<I>,
+    values: Vec<f64>,
+}
+
+impl<'a, I: SpIndex + faer::Index> Factor<'a, I> {
+    pub(crate) fn new(matrix: &'a CsMatI<f64, I>) -> Result<Self, FieldError> {
+        let count = matrix.rows();
+        let pointers = matrix.indptr();
+        let pattern = SymbolicSparseColMatRef::new_checked(
+            count,
+            count,
+            pointers.raw_storage(),
+            None,
+            matrix.indices(),
         );
-        let residual = residual(matrix, column, &rhs);
-        if residual.is_nan() || residual > 1e-7 {
-            return Err(singular(format!("relative residual {residual:e}")));
-        }
+        let parameters = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            ..Default::default()
+        };
+        let symbolic =
+            factorize_symbolic_cholesky(pattern, Side::Upper, SymmetricOrdering::Amd, parameters)
+                .map_err(|error| singular(format!("{error:?}")))?;
+        let mut values = vec![0.0_f64; symbolic.len_val()];
+        let scratch = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
+        symbolic
+            .factorize_numeric_llt(
+                &mut values,
+                SparseColMatRef::new(pattern, matrix.data()),
+                Side::Upper,
+                LltRegularization::default(),
+                Par::Seq,
+                MemStack::new(&mut MemBuffer::new(scratch)),
+                Default::default(),
+            )
+            .map_err(|error| singular(format!("{error:?}")))?;
+        Ok(Self {
+            matrix,
+            symbolic,
+            values,
+        })
     }
-    Ok(())
+
+    /// Solves for all columns at once, in place.
+    pub(crate) fn solve(&self, columns: &mut [Vec<f64>]) -> Result<(), FieldError> {
+        let count = self.matrix.rows();
+        let mut all = columns.concat();
+        let scratch = self
+            .symbolic
+            .solve_in_place_scratch::<f64>(columns.len(), Par::Seq);
+        LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
+            Conj::No,
+            MatMut::from_column_major_slice_mut(&mut all, count, columns.len()),
+            Par::Seq,
+            MemStack::new(&mut MemBuffer::new(scratch)),
+        );
+        for (column, solved) in columns.iter_mut().zip(all.chunks_exact(count)) {
+            let residual = residual(self.matrix, solved, column);
+            if residual.is_nan() || residual > 1e-7 {
+                return Err(singular(format!("relative residual {residual:e}")));
+            }
+            column.copy_from_slice(solved);
+        }
+        Ok(())
+    }
+}
+
+fn singular(why: String) -> FieldError {
+    FieldError::SingularSystem { why }
 }
 
 /// Largest entry of `matrix * x - rhs`, over that of `|matrix| |x| + |rhs|`,

@@ -76,6 +76,19 @@ pub(crate) fn laplacian_plus(domain: &Domain, weights: &[f64], extra: &[f64]) ->
     CsMatI::new_csc((count, count), starts, rows, values)
 }
 
+/// The area of each vertex: a third of that of its triangles.
+pub(crate) fn vertex_areas(domain: &Domain) -> Vec<f64> {
+    let mesh = &domain.inner.mesh;
+    let mut areas = vec![0.0; mesh.points.len()];
+    for triangle in &mesh.triangles {
+        let [a, b, c] = triangle.map(|v| mesh.points[v as usize]);
+        for &v in triangle {
+            areas[v as usize] += wedge(b - a, c - a) / 6.0;
+        }
+    }
+    areas
+}
+
 /// Gradient of the linear function with the given values at the corners of a
 /// triangle; `None` if the triangle has no area.
 pub(crate) fn gradient(points: [V2; 3], values: [f64; 3]) -> Option<V2> {

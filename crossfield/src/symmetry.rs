@@ -98,6 +98,12 @@ pub(crate) fn product(a: V2, b: V2) -> V2 {
     V2::new(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x)
 }
 
+/// The product of `a` with the complex conjugate of `b`: their quotient if
+/// `b` has unit length.
+pub(crate) fn quotient(a: V2, b: V2) -> V2 {
+    V2::new(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y)
+}
+
 /// N arms, evenly spaced (in the literature an N-RoSy, for rotational
 /// symmetry): what a [`Cross`] is for N = 4, for any [`Symmetry`].
 ///
