@@ -25,28 +25,86 @@ pub(crate) fn edge_weights(domain: &Domain, laplacian: Laplacian) -> Vec<f64> {
     if laplacian == Laplacian::Uniform {
         return vec![1.0; adjacency.len()];
     }
+    // First the entries of the earlier vertices in each row, by searching
+    // their part of the row, which is short.
     let mut weights = vec![0.0; adjacency.len()];
-    for triangle in &inner.mesh.triangles {
+    let sorted = by_last_vertex(&inner.mesh.triangles, domain.vertex_count());
+    for triangle in &sorted {
         let points = triangle.map(|v| inner.mesh.points[v as usize]);
         for k in 0..3 {
             let [b, c] = [(k + 1) % 3, (k + 2) % 3];
-            let (p, q) = (points[b] - points[k], points[c] - points[k]);
-            // A triangle flattened by rounding would have infinite
-            // cotangents: they are cut at angles of 1e-8.
-            let sine = wedge(p, q).max(1e-8 * p.norm() * q.norm());
-            let half = if sine > 0.0 {
-                p.dot(&q) / sine / 2.0
+            let half = half_cotangent(points[b] - points[k], points[c] - points[k]);
+            let (low, high) = if triangle[b] < triangle[c] {
+                (triangle[b], triangle[c])
             } else {
-                0.0
+                (triangle[c], triangle[b])
             };
-            for (v, w) in [(triangle[b], triangle[c]), (triangle[c], triangle[b])] {
-                if let Some(slot) = adjacency.slot(v, w) {
-                    weights[slot] += half;
-                }
+            let row = adjacency.row(high as usize);
+            let place = adjacency.of(high as usize).iter().position(|&w| w == low);
+            if let Some(place) = place {
+                weights[row.start + place] += half;
             }
         }
     }
+    // Then those of the later ones. As rows ascend, the rows that name a
+    // vertex are met in the order of its own later entries.
+    let mut next: Vec<u32> = (0..domain.vertex_count())
+        .map(|v| {
+            let earlier = adjacency.of(v).partition_point(|&w| (w as usize) < v);
+            (adjacency.row(v).start + earlier) as u32
+        })
+        .collect();
+    for v in 0..domain.vertex_count() {
+        let row = adjacency.row(v);
+        for (&w, slot) in adjacency.of(v).iter().zip(row) {
+            if w as usize >= v {
+                break;
+            }
+            let mirrored = &mut next[w as usize];
+            weights[*mirrored as usize] = weights[slot];
+            *mirrored += 1;
+        }
+    }
     weights
+}
+
+/// The triangles, in the order of their largest vertex: neighbours in space
+/// are neighbours in memory then, as they are not in the triangulation's own
+/// order.
+fn by_last_vertex(triangles: &[[u32; 3]], count: usize) -> Vec<[u32; 3]> {
+    let last = |t: &[u32; 3]| t[0].max(t[1]).max(t[2]) as usize;
+    let mut starts = vec![0_u32; count + 1];
+    for triangle in triangles {
+        starts[last(triangle) + 1] += 1;
+    }
+    for v in 0..count {
+        starts[v + 1] += starts[v];
+    }
+    let mut sorted = vec![[0; 3]; triangles.len()];
+    for triangle in triangles {
+        let place = &mut starts[last(triangle)];
+        sorted[*place as usize] = *triangle;
+        *place += 1;
+    }
+    sorted
+}
+
+/// Half the cotangent of the angle from `p` to `q`, to its left.
+fn half_cotangent(p: V2, q: V2) -> f64 {
+    let sine = wedge(p, q);
+    let least = 1e-16 * p.norm_squared() * q.norm_squared();
+    // A triangle flattened by rounding would have infinite cotangents: they
+    // are cut at angles of 1e-8.
+    let sine = if sine > 0.0 && sine * sine > least {
+        sine
+    } else {
+        least.sqrt()
+    };
+    if sine > 0.0 {
+        p.dot(&q) / sine / 2.0
+    } else {
+        0.0
+    }
 }
 
 /// The upper triangle of the matrix L + diag(extra), L the Laplacian with

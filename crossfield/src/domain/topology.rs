@@ -62,13 +62,6 @@ impl Adjacency {
         &self.vertices[self.row(v)]
     }
 
-    /// Position of the entry `w` of row `v`.
-    pub(crate) fn slot(&self, v: u32, w: u32) -> Option<usize> {
-        let row = self.row(v as usize);
-        let found = self.vertices[row.clone()].binary_search(&w).ok()?;
-        Some(row.start + found)
-    }
-
     /// Number of entries in all rows: twice the number of edges.
     pub(crate) fn len(&self) -> usize {
         self.vertices.len()
