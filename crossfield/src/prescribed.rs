@@ -145,7 +145,11 @@ impl FieldDesign for PrescribedField {
     /// [`FieldError::BadOption`] if omega is out of range; if a singularity
     /// lies outside the domain, has the index 0 or one beyond a whole turn; if
     /// two are so near that the mesh cannot tell them apart; if the indices
-    /// do not add up to [`PrescribedField::needed_sum`].
+    /// do not add up to [`PrescribedField::needed_sum`]; and, with
+    /// [`Connection::Phase`], if the field would turn by more than half an
+    /// N-th turn between neighbouring vertices, in a neck of the domain that
+    /// is no wider than an edge of the mesh, and so show a singularity that
+    /// was not asked for.
     /// [`FieldError::SingularSystem`] if the solution does not satisfy the
     /// system.
     ///
@@ -175,7 +179,11 @@ impl FieldDesign for PrescribedField {
             Connection::Phase => self.phases(domain, &poles, &frames)?,
             Connection::Vector => vectors(domain, system, &frames)?,
         };
-        Ok(Field::from_vectors(domain, crosses)?.of_symmetry(self.symmetry))
+        let field = Field::from_vectors(domain, crosses)?.of_symmetry(self.symmetry);
+        if self.connection == Connection::Phase {
+            self.just_these(&field, &poles)?;
+        }
+        Ok(field)
     }
 }
 
@@ -263,6 +271,33 @@ impl PrescribedField {
             }
         }
         Ok(poles)
+    }
+
+    /// Refuses a field that shows singularities elsewhere.
+    fn just_these(&self, field: &Field, poles: &[Pole]) -> Result<(), FieldError> {
+        let inner = &*field.domain().inner;
+        let reach = 2.0 * field.domain().edge_length();
+        let wanted = &poles[..self.singularities.len()];
+        for (t, triangle) in inner.mesh.triangles.iter().enumerate() {
+            if field.triangle_index(t) == 0 {
+                continue;
+            }
+            let [a, b, c] = triangle.map(|v| inner.mesh.points[v as usize]);
+            let middle = (a + b + c) / 3.0;
+            if wanted.iter().all(|pole| (pole.at - middle).norm() > reach) {
+                let at = middle + inner.frame.origin;
+                return Err(FieldError::option(
+                    "singularities",
+                    format!(
+                        "would bring about another one near ({:.2}, {:.2}), where the domain is \
+                         too narrow for its mesh; give it a smaller `edge_length`, or have the \
+                         indices on either side of the neck fit together",
+                        at.x, at.y
+                    ),
+                ));
+            }
+        }
+        Ok(())
     }
 
     /// The phase of smallest energy, as unit vectors.

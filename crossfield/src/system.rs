@@ -102,3 +102,53 @@ pub(crate) fn random_units(count: usize, seed: u64) -> Vec<V2> {
         })
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{BoundaryField, ConstrainedField, DomainOptions, Stroke, Symmetry};
+    use geo_types::{line_string, Polygon};
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(24) })]
+
+        /// Each Gauss-Seidel step is the exact minimum over one vertex: the
+        /// energy never rises, from any start, with any weights and pulls;
+        /// and no unit field has less than the solution of the linear system.
+        #[test]
+        fn rounds_never_raise_the_energy(
+            radii in proptest::collection::vec(40.0..100.0_f64, 5..14), seed in any::<u64>(),
+            omega in 0.01..1000.0_f64, uniform in any::<bool>(), fold in 0..4_usize,
+            ends in proptest::array::uniform4(-60.0..60.0_f64),
+        ) {
+            let step = std::f64::consts::TAU / radii.len() as f64;
+            let ring: Vec<(f64, f64)> = radii.iter().enumerate()
+                .map(|(k, r)| (r * (k as f64 * step).cos(), r * (k as f64 * step).sin()))
+                .collect();
+            let options = DomainOptions { edge_length: 12.0, ..DomainOptions::default() };
+            let domain = Domain::new(&Polygon::new(ring.into(), vec![]), &options)?;
+            let base = BoundaryField {
+                omega,
+                laplacian: if uniform { Laplacian::Uniform } else { Laplacian::Cotangent },
+                symmetry: Symmetry::ALL[fold],
+                ..BoundaryField::default()
+            };
+            let line = line_string![(x: ends[0], y: ends[1]), (x: ends[2], y: ends[3])];
+            let design = ConstrainedField::new(base).with(Stroke::new(line, 50.0));
+            let system = design.system(&domain)?;
+            let mut crosses = random_units(domain.vertex_count(), seed);
+            let mut before = system.energy(&domain, &crosses);
+            // The energy is a sum of some thousand terms of this size.
+            let scale: f64 = system.masses.iter().sum::<f64>() + 10.0 * crosses.len() as f64;
+            for _ in 0..12 {
+                system.relax(&domain, &mut crosses);
+                let after = system.energy(&domain, &crosses);
+                prop_assert!(after <= before + 1e-12 * scale, "{} {}", before, after);
+                before = after;
+            }
+            let least = system.energy(&domain, &system.solve(&domain)?);
+            prop_assert!(least <= before + 1e-9 * scale);
+        }
+    }
+}

@@ -52,7 +52,8 @@ pub enum SlopeArm {
 /// the gradient and `s = g^2 / (g^2 + half_slope^2)` for a gradient of length
 /// g: flat ground, whose gradient has no meaning, does not count.
 pub struct Terrain<H> {
-    heights: H,
+    /// Where the ground is how high.
+    pub heights: H,
     /// Its strength, to be compared with that of a stroke; positive.
     pub weight: f64,
     /// The slope (rise over run) that counts by half; positive.
