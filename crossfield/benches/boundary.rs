@@ -52,15 +52,15 @@ fn seconds(since: Instant) -> f64 {
     nanoseconds.map_or_else(|| since.elapsed().as_secs_f64(), |n| n * 1e-9)
 }
 
-/// Smallest time of several runs.
-fn best(runs: usize, mut run: impl FnMut()) -> f64 {
+/// Seconds of one of `times` runs in a row: processor time is counted in
+/// ticks of some milliseconds.
+fn timed(times: usize, mut run: impl FnMut()) -> f64 {
     let start = Instant::now();
-    let times = (0..runs).map(|_| {
-        let before = seconds(start);
+    let before = seconds(start);
+    for _ in 0..times {
         run();
-        seconds(start) - before
-    });
-    times.fold(f64::INFINITY, f64::min)
+    }
+    (seconds(start) - before) / times as f64
 }
 
 /// Upper triangle of L + 100 M_b in compressed columns, and the right-hand
@@ -209,19 +209,18 @@ fn main() {
     );
     println!("|---|---|---|---|---|---|---|");
     for size in sizes {
-        let runs = (3_000_000 / size).clamp(3, 20);
-        let start = Instant::now();
-        let before = seconds(start);
-        let domain = domain(size);
-        let meshed = seconds(start) - before;
+        let times = (1_000_000 / size).max(1);
+        let mut domain = None;
+        let meshed = timed(1, || domain = Some(self::domain(size)));
+        let domain = domain.expect("just made");
         let matrix = matrix(&domain);
         // In turns, so that what else the machine does meets both alike.
         let (mut field, mut solve) = (f64::INFINITY, f64::INFINITY);
-        for _ in 0..runs {
-            field = field.min(best(1, || {
+        for _ in 0..4 {
+            field = field.min(timed(times, || {
                 BoundaryField::default().design(&domain).expect("a field");
             }));
-            solve = solve.min(best(1, || {
+            solve = solve.min(timed(times, || {
                 bare(&matrix);
             }));
         }

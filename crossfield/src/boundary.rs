@@ -73,6 +73,7 @@ pub enum Start {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default))]
 pub struct BoundaryField {
     /// The paper's omega, alignment against smoothness; positive.
     ///

@@ -48,7 +48,8 @@ impl Field {
         };
         let total: f64 = fields.iter().map(|(_, weight)| weight).sum();
         let fair = |w: f64| w >= 0.0 && w.is_finite();
-        if !fields.iter().all(|&(_, w)| fair(w)) || !(total > 0.0 && total.is_finite()) {
+        let all_fair = fields.iter().all(|&(_, w)| fair(w));
+        if !(all_fair && total > 0.0 && total.is_finite()) {
             return Err(FieldError::option(
                 "weights",
                 "of a blend are to be finite and not negative, and one of them positive",

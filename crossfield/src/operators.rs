@@ -90,21 +90,20 @@ fn by_last_vertex(triangles: &[[u32; 3]], count: usize) -> Vec<[u32; 3]> {
 }
 
 /// Half the cotangent of the angle from `p` to `q`, to its left.
+///
+/// A triangle flattened by rounding would have infinite cotangents: they are
+/// cut at angles of 1e-8.
 fn half_cotangent(p: V2, q: V2) -> f64 {
-    let sine = wedge(p, q);
-    let least = 1e-16 * p.norm_squared() * q.norm_squared();
-    // A triangle flattened by rounding would have infinite cotangents: they
-    // are cut at angles of 1e-8.
-    let sine = if sine > 0.0 && sine * sine > least {
-        sine
-    } else {
-        least.sqrt()
-    };
-    if sine > 0.0 {
-        p.dot(&q) / sine / 2.0
-    } else {
+    const MOST: f64 = 1e8;
+    let (sine, cosine) = (wedge(p, q), p.dot(&q));
+    let cotangent = if sine > 0.0 {
+        (cosine / sine).clamp(-MOST, MOST)
+    } else if cosine == 0.0 {
         0.0
-    }
+    } else {
+        MOST.copysign(cosine)
+    };
+    cotangent / 2.0
 }
 
 /// The upper triangle of the matrix L + diag(extra), L the Laplacian with
@@ -199,6 +198,18 @@ mod tests {
             let slope = gradient(corners, corners.map(value)).expect("area");
             assert!((slope - V2::new(3.0, -2.0)).norm() < 1e-9);
         }
+    }
+
+    #[test]
+    fn cotangents_are_cut_and_have_no_scale() {
+        for scale in [1e-150, 1.0, 1e150] {
+            let at = |angle: f64| V2::new(angle.cos(), angle.sin()) * scale;
+            assert!((half_cotangent(at(0.3), at(0.8)) - 0.5 / 0.5_f64.tan()).abs() < 1e-14);
+            assert!(half_cotangent(at(0.0), V2::new(0.0, scale)).abs() < 1e-15);
+            assert_eq!(half_cotangent(at(0.3), at(0.3)), 5e7);
+            assert_eq!(half_cotangent(at(0.3), -at(0.3)), -5e7);
+        }
+        assert_eq!(half_cotangent(V2::zeros(), V2::zeros()), 0.0);
     }
 
     #[test]

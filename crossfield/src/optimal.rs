@@ -54,7 +54,7 @@ pub struct OptimalField {
     /// `None` for the unaligned field: the smallest eigenvector itself,
     /// constant.
     ///
-    /// Default value: -10.
+    /// Default value: -100.
     pub lambda: Option<f64>,
     /// How many arms the directions have.
     ///
@@ -65,7 +65,7 @@ pub struct OptimalField {
 impl Default for OptimalField {
     fn default() -> Self {
         Self {
-            lambda: Some(-10.0),
+            lambda: Some(-100.0),
             symmetry: Symmetry::Cross,
         }
     }

@@ -155,8 +155,8 @@ impl FieldDesign for PrescribedField {
     ///
     /// # Complexity
     ///
-    /// As for a [`BoundaryField`], one factorisation; and one solution for
-    /// each hole.
+    /// As for a [`BoundaryField`], one factorisation; one solution for each
+    /// hole; and O(vertices x (singularities + holes)).
     fn design(&self, domain: &Domain) -> Result<Field, FieldError> {
         let base = BoundaryField {
             omega: self.omega,
@@ -312,18 +312,16 @@ impl PrescribedField {
         let data = self.boundary_phases(domain, poles, frames);
         let weights = edge_weights(domain, Laplacian::Cotangent);
         let matrix = laplacian_plus(domain, &weights, &data.masses);
-        let mut rhs: Vec<f64> = (0..count)
-            .map(|v| data.masses[v] * data.phases[v])
-            .collect();
-        for v in 0..count {
+        let rhs = (0..count).map(|v| {
             let p = inner.mesh.points[v];
-            let row = inner.adjacency.row(v);
-            for (&w, &weight) in inner.adjacency.of(v).iter().zip(&weights[row]) {
-                rhs[v] += weight * transport(poles, p, inner.mesh.points[w as usize]);
-            }
-        }
+            let edges = inner.adjacency.of(v).iter();
+            let turn = edges
+                .zip(&weights[inner.adjacency.row(v)])
+                .map(|(&w, weight)| weight * transport(poles, p, inner.mesh.points[w as usize]));
+            data.masses[v] * data.phases[v] + turn.sum::<f64>()
+        });
         let holes = inner.rings.len() - 1;
-        let mut columns = vec![rhs];
+        let mut columns: Vec<Vec<f64>> = vec![rhs.collect()];
         for hole in 1..=holes {
             let column = (0..count).map(|v| {
                 if data.ring[v] as usize == hole {
@@ -357,6 +355,7 @@ impl PrescribedField {
         let mut phases = vec![0.0; count];
         let mut sums = vec![V2::zeros(); count];
         let mut ring_of = vec![0; count];
+        let mut ends_at = vec![0_u8; count];
         for (number, chain) in chains(domain).into_iter().enumerate() {
             let ring = &inner.rings[number];
             let Some(first) = chain.first() else { continue };
@@ -385,17 +384,19 @@ impl PrescribedField {
                     let (y, x) = (wanted - turned).sin_cos();
                     sums[v] += V2::new(x, y) * share;
                     ring_of[v] = number as u32;
+                    ends_at[v] = ends_at[v].saturating_add(1);
                 }
                 turned = after;
             }
-            // The start was met at the end again, less whole turns apart only
-            // by rounding: D' winds around no ring.
+            // At the end the start was met with its own phase again, since D'
+            // winds around no ring.
         }
         let mut masses = vec![0.0; count];
         for v in 0..count {
-            // What cancels between two edges has no phase.
+            // What cancels between two edges has no phase; nor has a vertex
+            // where rings touch, whose phases may be whole turns apart.
             let strength = sums[v].norm();
-            if lengths[v] > 0.0 && strength > FREE * lengths[v] {
+            if ends_at[v] == 2 && strength > FREE * lengths[v] {
                 masses[v] = self.omega * strength;
                 phases[v] /= lengths[v];
             } else {

@@ -300,10 +300,42 @@ proptest! {
         let design = |d: &Domain| {
             PrescribedField::new(vec![Singularity { at: middle(d), quarter_index: needed }]).design(d)
         };
-        let (a, b) = (design(&here)?, design(&there)?);
+        let (a, b) = (design(&here), design(&there));
+        // Both or neither find the domain too narrow for so coarse a mesh.
+        prop_assert_eq!(a.is_ok(), b.is_ok());
+        prop_assume!(a.is_ok());
+        let (a, b) = (a?, b?);
         for v in 0..here.vertex_count() {
             let cross = |f: &Field| Cross::from_representative(f.representative(v)).expect("unit");
             prop_assert!(cross(&a).turned(angle).deviation(&cross(&b)) < 1e-6);
         }
+    }
+}
+
+/// Rings that touch: their common vertices have no phase of their own, and
+/// nothing goes wrong.
+#[test]
+fn rings_that_touch_are_no_problem() {
+    let square = [(0., 0.), (60., 0.), (60., 60.), (0., 60.)];
+    let holes = [
+        vec![(0., 30.), (20., 20.), (20., 40.)],
+        vec![(30., 10.), (50., 10.), (40., 25.)],
+        vec![(40., 25.), (50., 45.), (30., 45.)],
+    ];
+    for count in 1..=holes.len() {
+        let rings = holes[..count]
+            .iter()
+            .map(|hole| shapes::ring(hole))
+            .collect();
+        let domain = domain(&Polygon::new(shapes::ring(&square), rings), 2.0);
+        let needed = PrescribedField::needed_sum(&domain, Symmetry::Cross);
+        let wanted: Vec<Singularity> = (0..needed.unsigned_abs())
+            .map(|k| at(8.0 + 10.0 * f64::from(k), 53.0, needed.signum()))
+            .collect();
+        let field = PrescribedField::new(wanted)
+            .design(&domain)
+            .expect("possible");
+        assert!(field.index_check().winding_law());
+        assert_eq!(field.index_sum(), needed, "{count}");
     }
 }

@@ -114,7 +114,8 @@ impl<'a> Pulls<'a> {
 
     /// Pulls at the point `at` towards an arm along `direction`: at the
     /// corners of its triangle, by their shares. Returns whether `at` lies in
-    /// the domain; if not, or if `direction` is zero, nothing happens.
+    /// the domain; if not, or if `direction` has no or no finite length, nothing
+    /// happens.
     ///
     /// A single point of any mass has no effect in the limit of fine meshes;
     /// sum up points along a line or over an area.
@@ -138,7 +139,7 @@ impl<'a> Pulls<'a> {
     }
 
     /// Pulls at vertex `v` towards an arm along `direction`; nothing happens
-    /// for a zero direction.
+    /// for a direction of no or no finite length.
     ///
     /// # Panics
     ///
@@ -149,7 +150,8 @@ impl<'a> Pulls<'a> {
     }
 
     fn add(&mut self, v: usize, target: V2, mass: f64) {
-        if target != V2::zeros() && mass > 0.0 && mass.is_finite() {
+        let wanted = target != V2::zeros() && target.x.is_finite() && target.y.is_finite();
+        if wanted && mass > 0.0 && mass.is_finite() {
             self.masses[v] += mass;
             self.pulls[v] += target * mass;
         }
