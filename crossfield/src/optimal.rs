@@ -82,11 +82,11 @@ impl FieldDesign for OptimalField {
     ///
     /// # Complexity
     ///
-    /// One sparse Cholesky factorisation; unaligned, some tens of solutions
+    /// One sparse Cholesky factorisation; unaligned, a handful of solutions
     /// with it.
     fn design(&self, domain: &Domain) -> Result<Field, FieldError> {
         let shift = match self.lambda {
-            None => 1.0,
+            None => NEARLY_NONE,
             Some(lambda) if (-1e12..=-1e-6).contains(&lambda) => -lambda,
             Some(lambda) => {
                 return Err(FieldError::option(
@@ -135,11 +135,13 @@ impl OptimalField {
     }
 }
 
-/// Most rounds of the inverse power iteration. The second eigenvalue of a
-/// compact domain is some 10 / area, so that with a shift of 1 / area each
-/// round leaves a tenth of the error; of long ones, or such with a
-/// bottleneck, more.
-const MOST_ROUNDS: usize = 1000;
+/// The shift of the inverse power iteration, in units of 1 / area. The second
+/// eigenvalue of a compact domain is some 10 / area, so that each round leaves
+/// a hundred-thousandth of the error; that of a needle, pi^2 width / length.
+const NEARLY_NONE: f64 = 1e-4;
+
+/// Most rounds of the inverse power iteration; a handful is usual.
+const MOST_ROUNDS: usize = 200;
 
 /// The eigenvector of the smallest eigenvalue of `L x = lambda M x`, of norm 1
 /// under M, by inverse power iteration with the factor of `L + shift M`.

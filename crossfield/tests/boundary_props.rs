@@ -5,10 +5,11 @@ mod shapes;
 
 use std::f64::consts::TAU;
 
-use crossfield::geo_types::{coord, Coord, Polygon};
+use crossfield::geo_types::{coord, Coord, LineString, Polygon};
 use crossfield::{
-    BoundaryField, Corner, Cross, Field, FieldDesign, FieldError, Laplacian, OptimalField,
-    PrescribedField, Start, Symmetry,
+    BoundaryField, ConstrainedField, Corner, Cross, Cursor, Field, FieldDesign, FieldError,
+    Laplacian, OptimalField, PointDirection, PrescribedField, Singularity, Start, Stroke, Symmetry,
+    Terrain,
 };
 use proptest::prelude::*;
 use shapes::{annulus, config, domain, polygon, rectilinear, regular, shape, turned};
@@ -180,6 +181,69 @@ proptest! {
                 prop_assert!(cross.deviation(&Cross::from_angle(angle)) < 1e-7);
             }
         }
+    }
+}
+
+/// Sizes far from any map's, and needles: every design works, or says why.
+#[test]
+fn extreme_sizes_are_no_problem() {
+    for size in [1e-9, 1e-3, 1e90] {
+        let scaled = |points: &[(f64, f64)]| -> Polygon<f64> {
+            shape(
+                &points
+                    .iter()
+                    .map(|(x, y)| (size * x, size * y))
+                    .collect::<Vec<_>>(),
+            )
+        };
+        let place = |x: f64, y: f64| coord! {x: size * x, y: size * y};
+        let site = scaled(&[(0., 0.), (12., 0.), (12., 8.), (0., 8.)]);
+        let domain = domain(&site, 0.0);
+        let stroke = Stroke::new(LineString(vec![place(3., 3.), place(9., 5.)]), 100.0);
+        let point = PointDirection {
+            at: place(2., 6.),
+            direction: place(1., 1.),
+            radius: size,
+            weight: 10.0,
+        };
+        let wanted = [(4., 4., 1), (8., 4., -1)].map(|(x, y, quarter_index)| Singularity {
+            at: place(x, y),
+            quarter_index,
+        });
+        let hill = |x: f64, y: f64| 0.2 * x + 0.1 * y;
+        let designs: [Box<dyn FieldDesign>; 4] = [
+            Box::new(OptimalField::default()),
+            Box::new(OptimalField {
+                lambda: None,
+                ..OptimalField::default()
+            }),
+            Box::new(PrescribedField::new(wanted.to_vec())),
+            Box::new(
+                ConstrainedField::new(BoundaryField::default())
+                    .with(&stroke)
+                    .with(point)
+                    .with(Terrain::new(hill, 1.0)),
+            ),
+        ];
+        let counts = designs.iter().map(|design| {
+            let field = design
+                .design(&domain)
+                .unwrap_or_else(|error| panic!("{size}: {error}"));
+            assert!(field.index_check().winding_law());
+            field.singularities().len()
+        });
+        assert_eq!(counts.collect::<Vec<_>>()[..3], [0, 0, 2], "{size}");
+        let field = BoundaryField::default().design(&domain).expect("a field");
+        let edited = field
+            .edited(std::slice::from_ref(&stroke), 2.0 * size)
+            .expect("possible");
+        let at = edited
+            .cross(place(6., 4.), &mut Cursor::default())
+            .expect("regular");
+        assert!(at.deviation(&Cross::from_direction(place(3., 1.)).expect("a direction")) < 0.1);
+        let all = scaled(&[(-1., -1.), (20., -1.), (20., 20.), (-1., 20.)]);
+        let smooth = edited.smoothed_inside(&all).expect("possible");
+        assert!(smooth.energy() < 1e-9);
     }
 }
 
