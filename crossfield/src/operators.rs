@@ -34,15 +34,9 @@ pub(crate) fn edge_weights(domain: &Domain, laplacian: Laplacian) -> Vec<f64> {
         for k in 0..3 {
             let [b, c] = [(k + 1) % 3, (k + 2) % 3];
             let half = half_cotangent(points[b] - points[k], points[c] - points[k]);
-            let (low, high) = if triangle[b] < triangle[c] {
-                (triangle[b], triangle[c])
-            } else {
-                (triangle[c], triangle[b])
-            };
-            let row = adjacency.row(high as usize);
-            let place = adjacency.of(high as usize).iter().position(|&w| w == low);
-            if let Some(place) = place {
-                weights[row.start + place] += half;
+            let (v, w) = (triangle[b], triangle[c]);
+            if let Some(slot) = adjacency.slot(v.max(w), v.min(w)) {
+                weights[slot] += half;
             }
         }
     }

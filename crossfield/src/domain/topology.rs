@@ -62,6 +62,12 @@ impl Adjacency {
         &self.vertices[self.row(v)]
     }
 
+    /// Position of the entry `w` of row `v`. Rows are short: by trying all.
+    pub(crate) fn slot(&self, v: u32, w: u32) -> Option<usize> {
+        let place = self.of(v as usize).iter().position(|&u| u == w)?;
+        Some(self.starts[v as usize] as usize + place)
+    }
+
     /// Number of entries in all rows: twice the number of edges.
     pub(crate) fn len(&self) -> usize {
         self.vertices.len()
