@@ -14,12 +14,12 @@
 //! edge vectors turn the cross at a right-angled corner by 45 degrees. Both of
 //! the paper's own rules are options.
 
-use crate::cross::SINGULAR;
 use crate::domain::Domain;
-use crate::factor;
 use crate::field::{Field, FieldDesign};
-use crate::operators::{edge_weights, laplacian_plus, Laplacian};
-use crate::plane::{fourth_power, V2};
+use crate::operators::Laplacian;
+use crate::plane::V2;
+use crate::symmetry::Symmetry;
+use crate::system::{random_units, to_unit, System};
 use crate::FieldError;
 
 /// What a boundary vertex between two edges should align with.
@@ -33,6 +33,26 @@ pub enum CornerRule {
     /// With the average of the two oriented edge vectors, as the paper is
     /// worded. At a right-angled corner that is the diagonal.
     EdgeVectors,
+}
+
+/// Where the search for unit vectors starts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Start {
+    /// At the exact minimum without the constraint of unit length, scaled to
+    /// unit length (the supplement's result).
+    #[default]
+    Solution,
+    /// At crosses of random angles (algorithm 2 of Ortner et al. 2023), from
+    /// which [`BoundaryField::unit_rounds`] lead to a local minimum: another
+    /// seed may give another field. Few rounds leave it restless, and with
+    /// many singularities; the rounds needed grow with the number of vertices.
+    ///
+    /// The seed is that of the portable generator PCG XSL RR 128/64.
+    Random {
+        /// The same seed gives the same field on every machine.
+        seed: u64,
+    },
 }
 
 /// The boundary field (B-field) of a domain.
@@ -53,6 +73,7 @@ pub enum CornerRule {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default))]
 pub struct BoundaryField {
     /// The paper's omega, alignment against smoothness; positive.
     ///
@@ -75,8 +96,17 @@ pub struct BoundaryField {
     /// Each step minimises over one vertex exactly, so the energy never
     /// rises.
     ///
-    /// Default value: 0 (the paper's: renormalised only).
+    /// Default value: 0 (the supplement's: renormalised only). UrbanFab's
+    /// iteration count.
     pub unit_rounds: usize,
+    /// Where those rounds start.
+    ///
+    /// Default value: [`Start::Solution`].
+    pub start: Start,
+    /// How many arms the directions have.
+    ///
+    /// Default value: [`Symmetry::Cross`].
+    pub symmetry: Symmetry,
 }
 
 impl Default for BoundaryField {
@@ -86,6 +116,8 @@ impl Default for BoundaryField {
             laplacian: Laplacian::Cotangent,
             corner_rule: CornerRule::Representatives,
             unit_rounds: 0,
+            start: Start::Solution,
+            symmetry: Symmetry::Cross,
         }
     }
 }
@@ -95,50 +127,47 @@ impl FieldDesign for BoundaryField {
     ///
     /// # Errors
     ///
-    /// [`FieldError::BadOption`] if omega is not positive and finite,
+    /// [`FieldError::BadOption`] if omega is not positive and finite, or the
+    /// start is random and no round follows;
     /// [`FieldError::SingularSystem`] if no boundary vertex is constrained or
     /// the solution does not satisfy the system.
     ///
     /// # Complexity
     ///
-    /// One sparse Cholesky factorisation, about O(n^1.5) in the vertices.
+    /// One sparse Cholesky factorisation, about O(n^1.5) in the vertices; none
+    /// from a random start.
     fn design(&self, domain: &Domain) -> Result<Field, FieldError> {
-        if !(self.omega > 0.0 && self.omega < 1e12) {
-            return Err(FieldError::option(
-                "omega",
-                format!("is {}; give more than 0 and less than 1e12", self.omega),
-            ));
+        if self.omega <= 0.0 {
+            return Err(bad_omega(self.omega));
         }
-        let system = System::new(self, domain);
-        if system.masses.iter().all(|&mass| mass == 0.0) {
-            return Err(FieldError::SingularSystem {
-                why: "no boundary vertex has a direction to align with".into(),
-            });
-        }
-        let mut crosses = system.solve(domain)?;
-        for cross in &mut crosses {
-            // What cancelled completely stays short, and singular.
-            *cross = cross.try_normalize(SINGULAR).unwrap_or_else(V2::zeros);
-        }
-        for _ in 0..self.unit_rounds {
-            system.relax(domain, &mut crosses);
-        }
-        Field::from_vectors(domain, crosses)
+        self.minimise(domain, &self.system(domain)?)
     }
 }
 
-/// Targets, masses (omega times m_i) and edge weights.
-struct System {
-    targets: Vec<V2>,
-    masses: Vec<f64>,
-    weights: Vec<f64>,
-}
+impl BoundaryField {
+    /// The energy with the pulls of the boundary; none for an omega of 0.
+    pub(crate) fn system(&self, domain: &Domain) -> Result<System, FieldError> {
+        if !(0.0..1e12).contains(&self.omega) {
+            return Err(bad_omega(self.omega));
+        }
+        let mut system = System::new(domain, self.laplacian);
+        let (targets, lengths) = self.targets(domain);
+        for (v, (target, length)) in targets.into_iter().zip(lengths).enumerate() {
+            if target.norm() > FREE {
+                let mass = self.omega * length;
+                system.masses[v] = mass;
+                system.pulls[v] = target * mass;
+            }
+        }
+        Ok(system)
+    }
 
-impl System {
-    fn new(design: &BoundaryField, domain: &Domain) -> Self {
+    /// For each vertex what the boundary there aligns with, zero inside, and
+    /// its share m_i of the boundary.
+    pub(crate) fn targets(&self, domain: &Domain) -> (Vec<V2>, Vec<f64>) {
         let inner = &*domain.inner;
         let count = domain.vertex_count();
-        let mut sums = vec![V2::zeros(); count];
+        let mut targets = vec![V2::zeros(); count];
         let mut lengths = vec![0.0; count];
         let unit = inner.area.sqrt();
         for border in &inner.mesh.borders {
@@ -146,84 +175,63 @@ impl System {
             let [a, b] = ends.map(|v| inner.mesh.points[v]);
             // Half of each edge belongs to either end. The paper's masses are
             // 1 a vertex, so each of its two edges contributes a half.
-            let share = match design.laplacian {
+            let share = match self.laplacian {
                 Laplacian::Cotangent => (b - a).norm() / (2.0 * unit),
                 Laplacian::Uniform => 0.5,
             };
             let direction = inner.rings[border.ring as usize].direction(border.edge as usize);
-            let pull = match design.corner_rule {
-                CornerRule::Representatives => fourth_power(direction) * share,
+            let pull = match self.corner_rule {
+                CornerRule::Representatives => self.symmetry.power(direction) * share,
                 CornerRule::EdgeVectors => b - a,
             };
             for v in ends {
-                sums[v] += pull;
+                targets[v] += pull;
                 lengths[v] += share;
             }
         }
-        let mut masses = vec![0.0; count];
-        let mut targets = sums;
-        for ((target, mass), length) in targets.iter_mut().zip(&mut masses).zip(lengths) {
-            if length == 0.0 {
-                continue;
-            }
-            *target = match design.corner_rule {
-                CornerRule::Representatives => *target / length,
-                CornerRule::EdgeVectors => fourth_power(*target),
-            };
-            if target.norm() > 1e-6 {
-                *mass = design.omega * length;
+        for (target, &length) in targets.iter_mut().zip(&lengths) {
+            if length > 0.0 {
+                *target = match self.corner_rule {
+                    CornerRule::Representatives => *target / length,
+                    CornerRule::EdgeVectors => self.symmetry.power(*target),
+                };
             }
         }
-        Self {
-            targets,
-            masses,
-            weights: edge_weights(domain, design.laplacian),
-        }
+        (targets, lengths)
     }
 
-    /// The minimiser without the constraint of unit length.
-    fn solve(&self, domain: &Domain) -> Result<Vec<V2>, FieldError> {
-        let matrix = laplacian_plus(domain, &self.weights, &self.masses);
-        let pulled = self.masses.iter().zip(&self.targets);
-        let (x, y) = pulled.map(|(m, t)| (m * t.x, m * t.y)).unzip();
-        let mut columns: [Vec<f64>; 2] = [x, y];
-        factor::solve(&matrix, &mut columns)?;
-        let [x, y] = columns;
-        Ok(x.into_iter().zip(y).map(|(x, y)| V2::new(x, y)).collect())
-    }
-
-    /// One Gauss-Seidel round over unit vectors.
-    ///
-    /// With all vectors of unit length the energy depends on one of them only
-    /// through its scalar product with the sum of its pulls: aligning it with
-    /// that sum is the exact minimum.
-    fn relax(&self, domain: &Domain, crosses: &mut [V2]) {
-        let adjacency = &domain.inner.adjacency;
-        for v in 0..crosses.len() {
-            let mut pull = self.targets[v] * self.masses[v];
-            for (&w, &weight) in adjacency.of(v).iter().zip(&self.weights[adjacency.row(v)]) {
-                pull += crosses[w as usize] * weight;
+    /// The minimum of `system` as the options say it is looked for.
+    pub(crate) fn minimise(&self, domain: &Domain, system: &System) -> Result<Field, FieldError> {
+        let mut crosses = match self.start {
+            Start::Solution => {
+                let mut crosses = system.solve(domain)?;
+                to_unit(&mut crosses);
+                crosses
             }
-            if let Some(unit) = pull.try_normalize(f64::MIN_POSITIVE) {
-                crosses[v] = unit;
+            Start::Random { .. } if self.unit_rounds == 0 => {
+                return Err(FieldError::option(
+                    "unit_rounds",
+                    "is 0 with a random start, which would stay random; give 1 or more",
+                ));
             }
+            Start::Random { seed } => random_units(domain.vertex_count(), seed),
+        };
+        for _ in 0..self.unit_rounds {
+            system.relax(domain, &mut crosses);
         }
+        Ok(Field::from_vectors(domain, crosses)?.of_symmetry(self.symmetry))
     }
+}
 
-    /// The energy that is minimised.
-    #[cfg(test)]
-    fn energy(&self, domain: &Domain, crosses: &[V2]) -> f64 {
-        let adjacency = &domain.inner.adjacency;
-        let mut energy = 0.0;
-        for v in 0..crosses.len() {
-            for (&w, &weight) in adjacency.of(v).iter().zip(&self.weights[adjacency.row(v)]) {
-                // Each edge is met twice.
-                energy += weight * (crosses[v] - crosses[w as usize]).norm_squared() / 2.0;
-            }
-            energy += self.masses[v] * (crosses[v] - self.targets[v]).norm_squared();
-        }
-        energy
-    }
+/// Targets shorter than this leave their vertex free: rounding alone would
+/// choose their direction.
+pub(crate) const FREE: f64 = 1e-6;
+
+fn bad_omega(omega: f64) -> FieldError {
+    FieldError::option(
+        "omega",
+        format!("is {omega}; give more than 0 and less than 1e12"),
+    )
 }
 
 #[cfg(test)]
@@ -246,7 +254,7 @@ mod tests {
                 laplacian,
                 ..BoundaryField::default()
             };
-            let system = System::new(&design, &domain);
+            let system = design.system(&domain).expect("in range");
             let solution = system.solve(&domain).expect("definite");
             let least = system.energy(&domain, &solution);
             for k in [0, 7, 100] {
@@ -274,7 +282,7 @@ mod tests {
                 corner_rule,
                 ..BoundaryField::default()
             };
-            System::new(&design, &domain).targets[0]
+            design.targets(&domain).0[0]
         };
         assert!((at_corner(CornerRule::EdgeVectors) - V2::new(-1.0, 0.0)).norm() < 1e-9);
         assert!((at_corner(CornerRule::Representatives) - V2::new(1.0, 0.0)).norm() < 1e-9);
@@ -296,7 +304,7 @@ mod tests {
         };
         let domain = Domain::new(&shape, &options).expect("valid");
         let design = BoundaryField::default();
-        let system = System::new(&design, &domain);
+        let system = design.system(&domain).expect("in range");
         let free = system.masses.iter().filter(|&&m| m == 0.0).count();
         assert_eq!(free, 8 + domain.inner_vertices().count());
         assert!(design.design(&domain).is_ok());

@@ -62,6 +62,11 @@ impl Cross {
         })
     }
 
+    /// The cross of a representation vector that has unit length.
+    pub(crate) fn from_unit(representative: Coord<f64>) -> Self {
+        Self { representative }
+    }
+
     /// The representation vector `(cos 4u, sin 4u)`, of unit length.
     #[must_use]
     pub fn representative(&self) -> Coord<f64> {

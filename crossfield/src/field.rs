@@ -5,6 +5,7 @@ use geo_types::Coord;
 use crate::cross::{Cross, SINGULAR};
 use crate::domain::{Cursor, Domain};
 use crate::plane::{coord, orient, vector, V2};
+use crate::symmetry::{Rosy, Symmetry};
 use crate::FieldError;
 
 /// A way of designing a cross field on a domain.
@@ -50,10 +51,14 @@ impl<T: FieldDesign + ?Sized> FieldDesign for Box<T> {
 /// A cross field: one representation vector for each vertex of a domain,
 /// linear in between.
 ///
+/// Or a field of any other [`Symmetry`]: then every count of quarter turns
+/// below is one of N-th turns.
+///
 /// Cloning copies the vectors and shares the domain.
 #[derive(Clone, Debug)]
 pub struct Field {
     domain: Domain,
+    symmetry: Symmetry,
     crosses: Vec<V2>,
 }
 
@@ -72,7 +77,28 @@ impl Field {
         domain: &Domain,
         representatives: Vec<Coord<f64>>,
     ) -> Result<Self, FieldError> {
-        Self::from_vectors(domain, representatives.into_iter().map(vector).collect())
+        Self::with_symmetry(domain, Symmetry::Cross, representatives)
+    }
+
+    /// As [`Field::from_representatives`], for directions of any symmetry:
+    /// vectors `(cos Nu, sin Nu)`.
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub fn with_symmetry(
+        domain: &Domain,
+        symmetry: Symmetry,
+        representatives: Vec<Coord<f64>>,
+    ) -> Result<Self, FieldError> {
+        let vectors = representatives.into_iter().map(vector).collect();
+        Ok(Self::from_vectors(domain, vectors)?.of_symmetry(symmetry))
+    }
+
+    /// The same vectors, standing for directions of another symmetry.
+    pub(crate) fn of_symmetry(mut self, symmetry: Symmetry) -> Self {
+        self.symmetry = symmetry;
+        self
     }
 
     pub(crate) fn from_vectors(domain: &Domain, mut crosses: Vec<V2>) -> Result<Self, FieldError> {
@@ -103,6 +129,7 @@ impl Field {
         }
         Ok(Self {
             domain: domain.clone(),
+            symmetry: Symmetry::Cross,
             crosses,
         })
     }
@@ -111,6 +138,13 @@ impl Field {
     #[must_use]
     pub fn domain(&self) -> &Domain {
         &self.domain
+    }
+
+    /// How many arms its directions have; four unless it was designed
+    /// otherwise.
+    #[must_use]
+    pub fn symmetry(&self) -> Symmetry {
+        self.symmetry
     }
 
     /// The representation vector at vertex `v`: of unit length, or zero at a
@@ -130,14 +164,24 @@ impl Field {
 
     /// The cross at `at`, or `None` outside the domain and where the
     /// interpolated representation vector is shorter than 1e-9.
+    ///
+    /// `None` everywhere in a field of another symmetry, see [`Field::rosy`].
     #[must_use]
     pub fn cross(&self, at: Coord<f64>, cursor: &mut Cursor) -> Option<Cross> {
+        self.rosy(at, cursor)?.as_cross()
+    }
+
+    /// The arms at `at`, whatever their symmetry; `None` outside the domain
+    /// and where the interpolated representation vector is shorter than 1e-9.
+    #[must_use]
+    pub fn rosy(&self, at: Coord<f64>, cursor: &mut Cursor) -> Option<Rosy> {
         let triangle = self.domain.locate(at, cursor)?;
-        Cross::from_vector(self.interpolate(triangle, self.domain.local(at)))
+        let d = self.interpolate(triangle, self.domain.local(at));
+        Rosy::from_vector(self.symmetry, d)
     }
 
     /// The arm at `at` that turns least from `heading`, a unit vector; `None`
-    /// where there is no cross.
+    /// where there is no arm.
     #[must_use]
     pub fn direction(
         &self,
@@ -145,7 +189,7 @@ impl Field {
         heading: Coord<f64>,
         cursor: &mut Cursor,
     ) -> Option<Coord<f64>> {
-        Some(self.cross(at, cursor)?.arm_towards(heading))
+        Some(self.rosy(at, cursor)?.arm_towards(heading))
     }
 
     /// Linear interpolation of the representation vectors in a triangle.

@@ -1,17 +1,18 @@
 //! Divergence, curvature and energy of a field.
 //!
-//! Within a triangle, grad u comes from the unwrapped differences of 4u. With
+//! Within a triangle, grad u comes from the unwrapped differences of 4u (of Nu
+//! for N arms). With
 //! d = (cos u, sin u) and d' = (-sin u, cos u) its left normal,
 //! div d = grad u . d' and the curvature of the trajectory along d is
 //! grad u . d: one gradient serves all.
 
 use geo_types::Coord;
 
-use crate::cross::Cross;
 use crate::domain::Cursor;
 use crate::field::Field;
 use crate::operators::gradient;
 use crate::plane::{left, vector, wedge, wrapped, V2};
+use crate::symmetry::Rosy;
 
 impl Field {
     /// Gradient of the angle u in a triangle, radians per metre; `None` if
@@ -35,7 +36,7 @@ impl Field {
         }
         let unwrapped = [0.0, differences[0], -differences[2]];
         let slope = gradient(vertices.map(|v| inner.mesh.points[v]), unwrapped)?;
-        Some(slope / 4.0)
+        Some(slope / self.symmetry().number())
     }
 
     /// Gradient of u at `at`, and the arm nearest to `heading`.
@@ -46,8 +47,8 @@ impl Field {
         cursor: &mut Cursor,
     ) -> Option<(V2, V2)> {
         let triangle = self.domain().locate(at, cursor)?;
-        let cross = Cross::from_vector(self.interpolate(triangle, self.domain().local(at)))?;
-        let arm = vector(cross.arm_towards(heading));
+        let d = self.interpolate(triangle, self.domain().local(at));
+        let arm = vector(Rosy::from_vector(self.symmetry(), d)?.arm_towards(heading));
         Some((self.angle_gradient(triangle)?, arm))
     }
 
@@ -93,13 +94,18 @@ impl Field {
     }
 
     /// Mean over the domain, without singular triangles, of |div|, averaged
-    /// over both arms of the cross; in 1 / metre.
+    /// over both arms of the cross (over the lines of other symmetries); in
+    /// 1 / metre.
     #[must_use]
     pub fn mean_abs_divergence(&self) -> f64 {
+        let (lines, period) = (self.symmetry().lines(), self.symmetry().period());
         let total = self.turning(|slope, d| {
-            let (y, x) = (d.y.atan2(d.x) / 4.0).sin_cos();
-            let arm = V2::new(x, y);
-            (slope.dot(&arm).abs() + slope.dot(&left(arm)).abs()) / 2.0
+            let first = d.y.atan2(d.x) / self.symmetry().number();
+            let divergence = |k: u32| {
+                let (y, x) = (first + f64::from(k) * period).sin_cos();
+                slope.dot(&left(V2::new(x, y))).abs()
+            };
+            (0..lines).map(divergence).sum::<f64>() / f64::from(lines)
         });
         total / self.domain().area()
     }
@@ -123,7 +129,7 @@ impl Field {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Domain, DomainOptions};
+    use crate::{Cross, Domain, DomainOptions};
     use geo_types::{coord, polygon};
 
     /// Crosses along circles around the origin, seen from a square off it.

@@ -9,7 +9,7 @@ use geo_types::Coord;
 use crate::cross::QUARTER;
 use crate::domain::Border;
 use crate::field::Field;
-use crate::plane::{coord, fourth_power, wedge, wrapped, V2};
+use crate::plane::{coord, wedge, wrapped, V2};
 
 /// A point without a cross.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,6 +19,8 @@ pub struct Singularity {
     pub at: Coord<f64>,
     /// Quarter turns of the cross on a way around it, counter-clockwise
     /// positive: +1 where three streets meet, -1 where five do.
+    ///
+    /// In a field of N arms, turns of `1 / N`: what D winds.
     pub quarter_index: i32,
 }
 
@@ -31,11 +33,13 @@ pub struct IndexCheck {
     /// Winding of D along all rings, the domain on their left.
     pub boundary_winding: i32,
     /// Sum over the boundary's vertices of their turn, each rounded to quarter
-    /// turns: convex ones positive, concave ones negative. A turn of less
+    /// turns (N-th turns for N arms): convex ones positive, concave ones negative. A turn of less
     /// than 45 degrees counts 0, so the smooth turning of a curve does not.
     pub corners: i32,
     /// Euler characteristic of the mesh.
     pub euler: i32,
+    /// The number N of arms: 4 for crosses.
+    pub folds: i32,
     /// Whether the field follows the boundary everywhere, see
     /// [`Field::is_boundary_aligned`].
     pub aligned: bool,
@@ -49,12 +53,13 @@ impl IndexCheck {
         self.interior == self.boundary_winding
     }
 
-    /// Whether the indices of triangles and corners add up to four times the
+    /// Whether the indices of triangles and corners add up to N times (for
+    /// crosses four times) the
     /// Euler characteristic (Poincare and Hopf): true for every field that
     /// follows the boundary on a mesh which resolves it.
     #[must_use]
     pub fn boundary_law(&self) -> bool {
-        self.interior + self.corners == 4 * self.euler
+        self.interior + self.corners == self.folds * self.euler
     }
 }
 
@@ -197,11 +202,13 @@ impl Field {
     pub fn index_check(&self) -> IndexCheck {
         let rings = &self.domain().inner.rings;
         let turns = rings.iter().flat_map(|ring| &ring.turn);
+        let period = self.symmetry().period();
         IndexCheck {
             interior: self.index_sum(),
             boundary_winding: self.boundary_winding(),
-            corners: turns.map(|turn| (turn / QUARTER).round() as i32).sum(),
+            corners: turns.map(|turn| (turn / period).round() as i32).sum(),
             euler: self.domain().euler_characteristic(),
+            folds: self.symmetry().folds() as i32,
             aligned: self.is_boundary_aligned(),
         }
     }
@@ -223,7 +230,7 @@ impl Field {
         let deviation = |border: usize, v: u32| {
             let border = borders[border];
             let ring = &inner.rings[border.ring as usize];
-            let along = fourth_power(ring.direction(border.edge as usize));
+            let along = self.symmetry().power(ring.direction(border.edge as usize));
             let d = self.vectors()[v as usize];
             wedge(along, d).atan2(along.dot(&d))
         };

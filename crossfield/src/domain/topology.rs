@@ -62,11 +62,10 @@ impl Adjacency {
         &self.vertices[self.row(v)]
     }
 
-    /// Position of the entry `w` of row `v`.
+    /// Position of the entry `w` of row `v`. Rows are short: by trying all.
     pub(crate) fn slot(&self, v: u32, w: u32) -> Option<usize> {
-        let row = self.row(v as usize);
-        let found = self.vertices[row.clone()].binary_search(&w).ok()?;
-        Some(row.start + found)
+        let place = self.of(v as usize).iter().position(|&u| u == w)?;
+        Some(self.starts[v as usize] as usize + place)
     }
 
     /// Number of entries in all rows: twice the number of edges.
