@@ -6,15 +6,15 @@
 //! node and prunes by that.
 
 use crate::domain::Ring;
-use crate::plane::{nearest_on_segment, V2};
+use crate::plane::{left, nearest_on_segment, V2};
 
 /// An item's box and its gain.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bound {
-    pub(crate) low: V2,
-    pub(crate) high: V2,
+    low: V2,
+    high: V2,
     /// Every distance of the item is at least its box distance over this.
-    pub(crate) gain: f64,
+    gain: f64,
 }
 
 impl Bound {
@@ -32,6 +32,22 @@ impl Bound {
             high: self.high.sup(&other.high),
             gain: self.gain.max(other.gain),
         }
+    }
+
+    /// Whether the segment `a b` may meet the box: not if their shadows on
+    /// one of the axes, or on the normal of the segment, lie apart.
+    fn meets(&self, a: V2, b: V2) -> bool {
+        let (low, high) = (a.inf(&b), a.sup(&b));
+        if low.x > self.high.x || low.y > self.high.y || high.x < self.low.x || high.y < self.low.y
+        {
+            return false;
+        }
+        let normal = left(b - a);
+        let half = (self.high - self.low) / 2.0;
+        let reach = normal.x.abs() * half.x + normal.y.abs() * half.y;
+        let off = normal.dot(&(self.low + half - a)).abs();
+        // What rounding may add, far below the size of any box that matters.
+        off <= reach * (1.0 + 1e-12) + 1e-14 * normal.norm() * (a.amax() + b.amax())
     }
 
     /// Lower bound of all distances within, from `p`.
@@ -164,26 +180,86 @@ impl Tree {
 }
 
 impl Tree {
-    /// Calls `visit` with every item whose box may hold a distance of at most
-    /// `limit` from `p`, in no particular order.
-    pub(crate) fn within(&self, p: V2, limit: f64, mut visit: impl FnMut(usize)) {
+    /// The order of the items along the leaves. The tree is left with items
+    /// numbered in that order.
+    pub(crate) fn take_order(&mut self) -> Vec<u32> {
+        let count = self.order.len() as u32;
+        std::mem::replace(&mut self.order, (0..count).collect())
+    }
+
+    /// All items whose distance is at most `widened` of the smallest one.
+    ///
+    /// `distance` may decline an item, and `accept`, which is only asked for
+    /// items that would be taken, may too. Only items up to `limit` are looked
+    /// for. Appended to `found` with their distances, in an order that does
+    /// not depend on `limit` if that is not below the last one's distance.
+    pub(crate) fn nearest_and_ties(
+        &self,
+        p: V2,
+        mut limit: f64,
+        widened: impl Fn(f64) -> f64,
+        distance: impl Fn(usize) -> Option<f64>,
+        accept: impl Fn(usize) -> bool,
+        found: &mut Vec<(u32, f64)>,
+    ) {
+        // As in `nearest`.
+        let mut stack = [(0_u32, 0.0_f64); 66];
+        let mut top = usize::from(!self.nodes.is_empty());
+        let mut least = f64::INFINITY;
+        while top > 0 {
+            top -= 1;
+            let (index, bound) = stack[top];
+            if bound > limit {
+                continue;
+            }
+            let node = &self.nodes[index as usize];
+            if node.leaf {
+                for &item in &self.order[node.first as usize..node.second as usize] {
+                    let Some(d) = distance(item as usize) else {
+                        continue;
+                    };
+                    if d <= limit && accept(item as usize) {
+                        found.push((item, d));
+                        if d < least {
+                            least = d;
+                            limit = limit.min(widened(d));
+                        }
+                    }
+                }
+            } else {
+                let entry = |child: u32| (child, self.nodes[child as usize].bound.distance(p));
+                let (a, b) = (entry(node.first), entry(node.second));
+                let (near, far) = if b.1 < a.1 { (b, a) } else { (a, b) };
+                stack[top] = far;
+                stack[top + 1] = near;
+                top += 2;
+            }
+        }
+        found.retain(|&(_, d)| d <= limit);
+    }
+
+    /// Whether `hit` is true for an item whose box meets the segment `a b`.
+    fn any_along(&self, a: V2, b: V2, mut hit: impl FnMut(usize) -> bool) -> bool {
         let mut stack = [0_u32; 66];
         let mut top = usize::from(!self.nodes.is_empty());
         while top > 0 {
             top -= 1;
             let node = &self.nodes[stack[top] as usize];
-            if node.bound.distance(p) > limit {
+            if !node.bound.meets(a, b) {
                 continue;
             }
             if node.leaf {
                 let items = &self.order[node.first as usize..node.second as usize];
-                items.iter().for_each(|&item| visit(item as usize));
+                if items.iter().any(|&item| hit(item as usize)) {
+                    return true;
+                }
             } else {
                 stack[top] = node.first;
                 stack[top + 1] = node.second;
                 top += 2;
             }
         }
+        false
     }
 }
 
@@ -227,6 +303,15 @@ impl EdgeTree {
         let (ring, edge) = self.names[item];
         (foot(item), ring, edge)
     }
+
+    /// Whether `hit` is true for an edge, given by ring and number, whose box
+    /// meets the segment `a b`.
+    pub(crate) fn any_along(&self, a: V2, b: V2, mut hit: impl FnMut(u32, u32) -> bool) -> bool {
+        self.tree.any_along(a, b, |item| {
+            let (ring, edge) = self.names[item];
+            hit(ring, edge)
+        })
+    }
 }
 
 #[cfg(test)]
@@ -267,14 +352,51 @@ mod tests {
                 .filter_map(|k| distance(k).map(|d| (k, d)))
                 .min_by(|a, b| a.1.total_cmp(&b.1));
             assert_eq!(tree.nearest(p, f64::INFINITY, distance), slow);
-            let limit = slow.map_or(0.0, |(_, d)| 2.0 * d);
+            // Whatever is at most half as far again as the nearest.
+            let limit = slow.map_or(0.0, |(_, d)| 1.5 * d);
             let near = |k: &usize| distance(*k).is_some_and(|d| d <= limit);
             let mut found = Vec::new();
-            tree.within(p, limit, |k| found.push(k));
-            found.retain(near);
+            tree.nearest_and_ties(
+                p,
+                f64::INFINITY,
+                |d| 1.5 * d,
+                distance,
+                |_| true,
+                &mut found,
+            );
+            let mut found: Vec<usize> = found.iter().map(|f| f.0 as usize).collect();
             found.sort_unstable();
             let all: Vec<usize> = (0..segments.len()).filter(near).collect();
             assert_eq!(found, all);
+        }
+    }
+
+    #[test]
+    fn segments_meet_the_boxes_of_what_they_cross() {
+        let ends: Vec<V2> = scattered(400).collect();
+        let items: Vec<(V2, V2)> = ends
+            .chunks_exact(2)
+            .map(|e| (e[0], e[0] + e[1] * 0.1))
+            .collect();
+        let bounds: Vec<Bound> = items
+            .iter()
+            .map(|&(a, b)| Bound::of_segment(a, b, 1.0))
+            .collect();
+        let tree = Tree::new(&bounds);
+        for pair in ends.windows(2) {
+            let (a, b) = (pair[0], pair[1]);
+            let mut met = vec![false; items.len()];
+            tree.any_along(a, b, |k| {
+                met[k] = true;
+                false
+            });
+            // Every point of the segment lies in boxes that were met only.
+            for step in 0..=50 {
+                let p = a + (b - a) * (f64::from(step) / 50.0);
+                for (k, bound) in bounds.iter().enumerate() {
+                    assert!(met[k] || bound.distance(p) > 0.0);
+                }
+            }
         }
     }
 

@@ -16,8 +16,8 @@ mod singularity;
 
 pub use boundary::{BoundaryField, CornerRule};
 pub use cross::Cross;
-pub use distance::DistanceField;
-pub use domain::{Corner, Cursor, Domain, DomainOptions, Exit};
+pub use distance::{DistanceField, Footpoint, Footpoints, MedialAxis, Sight, Weighting};
+pub use domain::{Corner, Cursor, Domain, DomainOptions, Exit, Piece};
 pub use error::FieldError;
 pub use field::{Field, FieldDesign};
 pub use geo_types;

@@ -3,7 +3,9 @@
 mod lattice;
 mod locate;
 mod mesh;
+mod pieces;
 mod ring;
+mod sight;
 mod topology;
 
 use std::sync::{Arc, OnceLock};
@@ -15,6 +17,7 @@ use crate::footpoint::EdgeTree;
 use crate::plane::{coord, vector, V2};
 use crate::FieldError;
 pub(crate) use mesh::Border;
+pub use pieces::Piece;
 pub(crate) use ring::Ring;
 
 /// How a domain is triangulated.
