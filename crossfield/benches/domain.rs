@@ -1,5 +1,5 @@
 //! Processor time of meshing and of D-fields at ten thousand, a hundred
-//! thousand and a million vertices; [`benches/triangle.py`] runs Triangle on
+//! thousand and a million vertices; [`benches/triangle_peer.py`] runs Triangle on
 //! the same outlines.
 //!
 //! `cargo bench -p crossfield --bench domain [-- VERTICES ...]`
@@ -39,16 +39,25 @@ fn processor_seconds(start: Instant) -> f64 {
         .map_or_else(|| start.elapsed().as_secs_f64(), |ns| ns * 1e-9)
 }
 
-/// The smallest processor time of some runs, and the last result.
-fn least<T>(runs: usize, mut run: impl FnMut() -> T) -> (f64, T) {
+/// Processor time of a run, and its last result: the smallest mean of some
+/// batches, each long enough for a system that counts in hundredths.
+fn least<T>(batches: usize, mut run: impl FnMut() -> T) -> (f64, T) {
     let start = Instant::now();
     let mut best = f64::INFINITY;
     let mut last = None;
-    for _ in 0..runs {
-        drop(last.take());
+    for _ in 0..batches {
         let before = processor_seconds(start);
-        last = Some(run());
-        best = best.min(processor_seconds(start) - before);
+        let mut runs = 0;
+        let mean = loop {
+            drop(last.take());
+            last = Some(run());
+            runs += 1;
+            let spent = processor_seconds(start) - before;
+            if spent > 0.3 {
+                break spent / f64::from(runs);
+            }
+        };
+        best = best.min(mean);
     }
     (best, last.expect("at least one run"))
 }
@@ -72,7 +81,7 @@ fn main() {
     );
     println!("|---|---|---|---|---|---|---|");
     for count in wanted {
-        let runs = if count > 3e5 { 2 } else { 5 };
+        let runs = 3;
         let options = DomainOptions {
             // An equilateral triangle has sqrt(3) / 4 h^2, a vertex has two.
             edge_length: (area / count / 0.75_f64.sqrt()).sqrt(),

@@ -239,7 +239,7 @@ impl Tree {
     }
 
     /// Whether `hit` is true for an item whose box meets the segment `a b`.
-    fn any_along(&self, a: V2, b: V2, mut hit: impl FnMut(usize) -> bool) -> bool {
+    pub(crate) fn any_along(&self, a: V2, b: V2, mut hit: impl FnMut(usize) -> bool) -> bool {
         let mut stack = [0_u32; 66];
         let mut top = usize::from(!self.nodes.is_empty());
         while top > 0 {

@@ -17,7 +17,7 @@ mod singularity;
 pub use boundary::{BoundaryField, CornerRule};
 pub use cross::Cross;
 pub use distance::{DistanceField, Footpoint, Footpoints, MedialAxis, Sight, Weighting};
-pub use domain::{Corner, Cursor, Domain, DomainOptions, Exit, Piece};
+pub use domain::{Corner, Cursor, Domain, DomainOptions, Exit, LineEdge, Piece};
 pub use error::FieldError;
 pub use field::{Field, FieldDesign};
 pub use geo_types;

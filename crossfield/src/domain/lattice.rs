@@ -7,7 +7,11 @@
 //! laid along the longest edge through the centroid of the exterior, so that
 //! a domain which is moved or turned gets the same mesh, up to rounding.
 
+use std::collections::BTreeSet;
+
+use super::lines::Lines;
 use super::ring::Ring;
+use super::sizing::Sizing;
 use crate::plane::{segment_distance_squared, wedge, V2};
 
 /// One straight piece of a subdivided ring edge.
@@ -17,10 +21,19 @@ pub(crate) struct Segment {
     pub(crate) from: u32,
     /// Index of the end among the points.
     pub(crate) to: u32,
-    /// Ring it lies on.
+    /// Ring it lies on; for a constraint line, `LINE` and its number.
     pub(crate) ring: u32,
     /// Edge of the (cleaned) ring it lies on.
     pub(crate) edge: u32,
+}
+
+/// Set in the ring of a segment when it is part of a constraint line.
+pub(crate) const LINE: u32 = 1 << 31;
+
+impl Segment {
+    pub(crate) fn is_line(&self) -> bool {
+        self.ring & LINE != 0
+    }
 }
 
 /// Lattice points nearer to the boundary than this part of the edge length
@@ -28,36 +41,58 @@ pub(crate) struct Segment {
 /// fill it again.
 const CLEARANCE: f64 = 0.62;
 
-/// Points of all rings, subdivided to at most `step`, equal points merged.
-pub(crate) fn boundary(rings: &[Ring], step: f64) -> (Vec<V2>, Vec<Segment>) {
+/// Points of all rings and lines, subdivided as `sizing` says, equal points
+/// merged.
+pub(crate) fn boundary(rings: &[Ring], lines: &Lines, sizing: &Sizing) -> (Vec<V2>, Vec<Segment>) {
     let mut points = Vec::new();
     let mut segments = Vec::new();
+    let mut chain = |points: &mut Vec<V2>, a: V2, b: V2, least: usize, ring: u32, edge: u32| {
+        let inner = sizing.subdivide(a, b, least);
+        for p in std::iter::once(a).chain(inner) {
+            let from = points.len() as u32;
+            points.push(p);
+            segments.push(Segment {
+                from,
+                to: from + 1,
+                ring,
+                edge,
+            });
+        }
+        segments.len() - 1
+    };
+    let mut ends = Vec::new();
     for (index, ring) in rings.iter().enumerate() {
         let first = points.len() as u32;
+        let mut last = 0;
         for k in 0..ring.len() {
-            let (a, b) = ring.edge(k);
-            let mut parts = ((b - a).norm() / step).ceil().max(1.0) as usize;
+            let (mut a, b) = ring.edge(k);
+            let cuts = lines.cuts(index, k);
             // An edge between two corners gets a point of its own: at a corner
             // a field may be free (see `BoundaryField`), in between it is not.
-            if ring.corner[k] && ring.corner[ring.next(k)] {
-                parts = parts.max(2);
-            }
-            for part in 0..parts {
-                let from = points.len() as u32;
-                points.push(a + (b - a) * (part as f64 / parts as f64));
-                segments.push(Segment {
-                    from,
-                    to: from + 1,
-                    ring: index as u32,
-                    edge: k as u32,
-                });
+            let corners = ring.corner[k] && ring.corner[ring.next(k)] && cuts.is_empty();
+            let least = if corners { 2 } else { 1 };
+            for end in cuts.iter().map(|cut| cut.2).chain([b]) {
+                last = chain(&mut points, a, end, least, index as u32, k as u32);
+                a = end;
             }
         }
-        if let Some(last) = segments.last_mut() {
-            last.to = first;
-        }
+        ends.push((last, first));
     }
-    merge(points, segments)
+    for piece in &lines.pieces {
+        let last = chain(&mut points, piece.from, piece.to, 1, LINE | piece.line, 0);
+        ends.push((last, points.len() as u32));
+        points.push(piece.to);
+    }
+    for (last, to) in ends {
+        segments[last].to = to;
+    }
+    let (points, mut segments) = merge(points, segments);
+    if !lines.pieces.is_empty() {
+        // What two lines share is there once.
+        let mut seen = BTreeSet::new();
+        segments.retain(|s| !s.is_line() || seen.insert((s.from.min(s.to), s.from.max(s.to))));
+    }
+    (points, segments)
 }
 
 /// Gives equal points (rings that touch at a vertex) one index.
@@ -93,77 +128,181 @@ fn merge(points: Vec<V2>, mut segments: Vec<Segment>) -> (Vec<V2>, Vec<Segment>)
     (merged, segments)
 }
 
-/// Lattice points strictly inside the rings, clear of the boundary.
+/// Lattice points strictly inside the rings, clear of the boundary and of
+/// constraint lines.
 ///
-/// One pass over the edges per lattice row they meet: O(boundary / step +
-/// points), up to the sorting within rows.
-pub(crate) fn interior(rings: &[Ring], points: &[V2], segments: &[Segment], step: f64) -> Vec<V2> {
-    let frame = LatticeFrame::new(rings, step);
-    let height = frame.row_height;
-    let lowest = points
-        .iter()
-        .map(|&p| frame.to(p).y)
-        .fold(f64::MAX, f64::min);
-    let highest = points
-        .iter()
-        .map(|&p| frame.to(p).y)
-        .fold(f64::MIN, f64::max);
-    let first_row = (lowest / height).floor() as i64;
-    let rows = ((highest / height).ceil() as i64 - first_row + 1).max(0) as usize;
-    let mut crossings: Vec<Vec<f64>> = vec![Vec::new(); rows];
-    let mut blocked: Vec<Vec<i64>> = vec![Vec::new(); rows];
-    let reach = CLEARANCE * step;
-    for segment in segments {
-        let a = frame.to(points[segment.from as usize]);
-        let b = frame.to(points[segment.to as usize]);
+/// Where the mesh is graded, finer lattices, each of half the step, fill the
+/// neighbourhood of shorter segments. Each holds the points of the coarser
+/// ones, so that triangles in between have no angle below 30 degrees.
+pub(crate) fn interior(
+    rings: &[Ring],
+    points: &[V2],
+    segments: &[Segment],
+    sizing: &Sizing,
+) -> Vec<V2> {
+    let mut inside = Vec::new();
+    for level in 0..=sizing.levels {
+        let step = sizing.step * 0.5_f64.powi(level as i32);
+        let frame = LatticeFrame::new(rings, step);
+        Rows::new(&frame, points, segments, sizing, level).fill(&frame, level, &mut inside);
+    }
+    inside
+}
+
+/// What the segments say about the rows of one lattice.
+struct Rows {
+    first: i64,
+    /// Where the boundary crosses the row.
+    crossings: Vec<Vec<f64>>,
+    /// Columns too near to a segment.
+    blocked: Vec<Vec<i64>>,
+    /// Columns that a segment wants; not used on the coarsest lattice.
+    wanted: Vec<Vec<i64>>,
+}
+
+impl Rows {
+    /// One pass over the rows that each segment meets: O(boundary / step),
+    /// and O(reach^2) a segment on finer lattices.
+    fn new(
+        frame: &LatticeFrame,
+        points: &[V2],
+        segments: &[Segment],
+        sizing: &Sizing,
+        level: u32,
+    ) -> Self {
+        let height = frame.row_height;
+        let heights = || points.iter().map(|&p| frame.to(p).y);
+        let lowest = heights().fold(f64::MAX, f64::min);
+        let highest = heights().fold(f64::MIN, f64::max);
+        let first = (lowest / height).floor() as i64;
+        let count = ((highest / height).ceil() as i64 - first + 1).max(0) as usize;
+        let mut rows = Self {
+            first,
+            crossings: vec![Vec::new(); count],
+            blocked: vec![Vec::new(); count],
+            wanted: vec![Vec::new(); if level > 0 { count } else { 0 }],
+        };
+        for segment in segments {
+            let a = frame.to(points[segment.from as usize]);
+            let b = frame.to(points[segment.to as usize]);
+            let length = (b - a).norm();
+            if !segment.is_line() {
+                rows.cross(frame, a, b);
+            }
+            // On an even mesh the lattice keeps its own distance, on a graded
+            // one that of the segment.
+            let clear = CLEARANCE
+                * if sizing.levels > 0 {
+                    length
+                } else {
+                    frame.step
+                };
+            rows.around(frame, a, b, clear, |rows, slot, column| {
+                rows.blocked[slot].push(column);
+            });
+            if let Some(reach) = sizing.reach(length, level).filter(|r| r.is_finite()) {
+                rows.around(frame, a, b, reach, |rows, slot, column| {
+                    rows.wanted[slot].push(column);
+                });
+            }
+        }
+        rows
+    }
+
+    fn slot(&self, row: i64) -> Option<usize> {
+        let slot = usize::try_from(row - self.first).ok()?;
+        (slot < self.crossings.len()).then_some(slot)
+    }
+
+    fn cross(&mut self, frame: &LatticeFrame, a: V2, b: V2) {
         let (low, high) = (a.y.min(b.y), a.y.max(b.y));
-        let from = ((low - reach) / height).ceil() as i64;
-        let to = ((high + reach) / height).floor() as i64;
+        let from = (low / frame.row_height).ceil() as i64;
+        let to = (high / frame.row_height).floor() as i64;
         for row in from..=to {
-            let Some(slot) = usize::try_from(row - first_row).ok().filter(|&s| s < rows) else {
+            let y = row as f64 * frame.row_height;
+            if let (true, Some(slot)) = ((a.y > y) != (b.y > y), self.slot(row)) {
+                self.crossings[slot].push(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+            }
+        }
+    }
+
+    /// Calls `visit` for the lattice points within `reach` of a segment.
+    fn around(
+        &mut self,
+        frame: &LatticeFrame,
+        a: V2,
+        b: V2,
+        reach: f64,
+        mut visit: impl FnMut(&mut Self, usize, i64),
+    ) {
+        let (low, high) = (a.y.min(b.y), a.y.max(b.y));
+        let from = ((low - reach) / frame.row_height).ceil() as i64;
+        let to = ((high + reach) / frame.row_height).floor() as i64;
+        for row in from..=to {
+            let Some(slot) = self.slot(row) else {
                 continue;
             };
-            let y = row as f64 * height;
-            if (a.y > y) != (b.y > y) {
-                crossings[slot].push(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
-            }
+            let y = row as f64 * frame.row_height;
             let shift = frame.shift(row);
-            let left = ((a.x.min(b.x) - reach - shift) / step).ceil() as i64;
-            let right = ((a.x.max(b.x) + reach - shift) / step).floor() as i64;
+            let left = ((a.x.min(b.x) - reach - shift) / frame.step).ceil() as i64;
+            let right = ((a.x.max(b.x) + reach - shift) / frame.step).floor() as i64;
             for column in left..=right {
-                let p = V2::new(column as f64 * step + shift, y);
+                let p = V2::new(column as f64 * frame.step + shift, y);
                 if segment_distance_squared(p, a, b) < reach * reach {
-                    blocked[slot].push(column);
+                    visit(self, slot, column);
                 }
             }
         }
     }
-    let mut inside = Vec::new();
-    for slot in 0..rows {
-        let row = slot as i64 + first_row;
-        let (cuts, holes) = (&mut crossings[slot], &mut blocked[slot]);
-        cuts.sort_by(f64::total_cmp);
-        holes.sort_unstable();
-        holes.dedup();
-        let shift = frame.shift(row);
-        let mut hole = 0;
-        for span in cuts.chunks_exact(2) {
-            let left = ((span[0] - shift) / step).ceil() as i64;
-            let right = ((span[1] - shift) / step).floor() as i64;
-            for column in left..=right {
+
+    /// Appends the points of this lattice that lie inside and are not blocked.
+    fn fill(mut self, frame: &LatticeFrame, level: u32, inside: &mut Vec<V2>) {
+        for slot in 0..self.crossings.len() {
+            let row = slot as i64 + self.first;
+            let shift = frame.shift(row);
+            let (cuts, holes) = (&mut self.crossings[slot], &mut self.blocked[slot]);
+            cuts.sort_by(f64::total_cmp);
+            holes.sort_unstable();
+            holes.dedup();
+            let mut hole = 0;
+            let mut push = |column: i64| {
                 while hole < holes.len() && holes[hole] < column {
                     hole += 1;
                 }
                 if holes.get(hole) != Some(&column) {
                     inside.push(frame.back(V2::new(
-                        column as f64 * step + shift,
+                        column as f64 * frame.step + shift,
                         row as f64 * frame.row_height,
                     )));
                 }
+            };
+            let spans = cuts.chunks_exact(2).map(|span| {
+                let left = ((span[0] - shift) / frame.step).ceil() as i64;
+                let right = ((span[1] - shift) / frame.step).floor() as i64;
+                (left, right)
+            });
+            if level == 0 {
+                spans.for_each(|(left, right)| (left..=right).for_each(&mut push));
+                continue;
+            }
+            let wanted = &mut self.wanted[slot];
+            wanted.sort_unstable();
+            wanted.dedup();
+            for (left, right) in spans {
+                let from = wanted.partition_point(|&column| column < left);
+                let to = wanted.partition_point(|&column| column <= right);
+                wanted[from..to.max(from)]
+                    .iter()
+                    .filter(|&&column| !is_coarser(row, column))
+                    .for_each(|&column| push(column));
             }
         }
     }
-    inside
+}
+
+/// Whether a lattice point belongs to the lattice of twice the step as well.
+fn is_coarser(row: i64, column: i64) -> bool {
+    row.rem_euclid(2) == 0 && (column - row.div_euclid(2)).rem_euclid(2) == 0
 }
 
 /// A frame whose x axis runs along the lattice rows.
@@ -232,6 +371,7 @@ fn centroid(points: &[V2]) -> V2 {
 #[cfg(test)]
 mod tests {
     use super::super::ring::rings;
+    use super::super::DomainOptions;
     use super::*;
     use geo_types::polygon;
 
@@ -242,9 +382,10 @@ mod tests {
             interiors: [[(x: 30., y: 30.), (x: 60., y: 30.), (x: 60., y: 70.)]],
         );
         let (_, rings) = rings(&shape, 0.5).expect("valid");
-        let (points, segments) = boundary(&rings, 2.0);
+        let sizing = Sizing::new(&rings, 2.0, &DomainOptions::default());
+        let (points, segments) = boundary(&rings, &Lines::default(), &sizing);
         assert_eq!(points.len(), segments.len());
-        let inside = interior(&rings, &points, &segments, 2.0);
+        let inside = interior(&rings, &points, &segments, &sizing);
         let expected = (10_000.0 - 600.0 - 1.2 * (400.0 + 120.0)) / (4.0 * 0.75_f64.sqrt());
         assert!((inside.len() as f64 / expected - 1.0).abs() < 0.05);
         for p in &inside {
@@ -257,13 +398,39 @@ mod tests {
     }
 
     #[test]
+    fn lattices_of_half_the_step_hold_the_coarser_ones() {
+        let shape = polygon![(x: 0., y: 0.), (x: 100., y: 0.), (x: 100., y: 90.), (x: 0., y: 90.)];
+        let (_, rings) = rings(&shape, 0.5).expect("valid");
+        let (fine, coarse) = (
+            LatticeFrame::new(&rings, 1.0),
+            LatticeFrame::new(&rings, 2.0),
+        );
+        let at = |frame: &LatticeFrame, row: i64, column: i64| {
+            V2::new(
+                column as f64 * frame.step + frame.shift(row),
+                row as f64 * frame.row_height,
+            )
+        };
+        for row in -5..=5 {
+            for column in -5..=5 {
+                let p = at(&fine, row, column);
+                let found = (-9..=9)
+                    .flat_map(|r| (-9..=9).map(move |c| (r, c)))
+                    .any(|(r, c)| (at(&coarse, r, c) - p).norm() < 1e-9);
+                assert_eq!(found, is_coarser(row, column));
+            }
+        }
+    }
+
+    #[test]
     fn rings_that_touch_share_a_point() {
         let shape = polygon!(
             exterior: [(x: 0., y: 0.), (x: 10., y: 0.), (x: 10., y: 10.), (x: 0., y: 10.)],
             interiors: [[(x: 0., y: 0.), (x: 4., y: 2.), (x: 2., y: 4.)]],
         );
         let (_, rings) = rings(&shape, 0.5).expect("valid");
-        let (points, segments) = boundary(&rings, 100.0);
+        let sizing = Sizing::new(&rings, 100.0, &DomainOptions::default());
+        let (points, segments) = boundary(&rings, &Lines::default(), &sizing);
         // Four and three corners, a midpoint on each of the seven edges.
         assert_eq!((points.len(), segments.len()), (13, 14));
     }

@@ -2,12 +2,15 @@
 
 use std::cell::Cell;
 
+use spade::handles::FixedVertexHandle;
 use spade::{
     AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementParameters, Triangulation,
 };
 
-use super::lattice::{boundary, interior, Segment};
+use super::lattice::{boundary, interior, Segment, LINE};
+use super::lines::Lines;
 use super::ring::{Frame, Ring};
+use super::sizing::Sizing;
 use super::DomainOptions;
 use crate::plane::{orient_exact, V2};
 use crate::FieldError;
@@ -40,18 +43,27 @@ pub(crate) struct Mesh {
     /// `BORDER | index` into `borders`.
     pub(crate) neighbours: Vec<[u32; 3]>,
     pub(crate) borders: Vec<Border>,
+    /// Edges on constraint lines: from, to, and which line.
+    pub(crate) line_edges: Vec<(u32, u32, u32)>,
 }
 
-/// Triangulates the rings with triangle edges of about `step`.
+/// Triangulates the rings with triangle edges as long as `sizing` says.
+///
+/// Constraint lines are put in after refinement: their segments are as short
+/// as the lattice keeps away from them, so that most are edges already, and
+/// spade takes what lies behind a constraint for outside.
 pub(crate) fn triangulate(
     rings: &[Ring],
+    lines: &Lines,
     frame: Frame,
-    step: f64,
+    sizing: &Sizing,
     options: &DomainOptions,
 ) -> Result<Mesh, FieldError> {
-    let (points, segments) = boundary(rings, step);
+    let step = sizing.step;
+    let (points, mut segments) = boundary(rings, lines, sizing);
+    let inside = interior(rings, &points, &segments, sizing);
+    let on_lines: Vec<Segment> = segments.extract_if(.., |s| s.is_line()).collect();
     overlapping(rings, frame, &segments)?;
-    let inside = interior(rings, &points, &segments, step);
     let total = points.len() + inside.len();
     if total > options.max_vertices {
         return Err(FieldError::TooManyVertices {
@@ -62,7 +74,6 @@ pub(crate) fn triangulate(
     // A power of two scales without rounding; it keeps spade's absolute
     // limits (1e-43, 1e60) out of reach whatever the units of the domain.
     let scale = frame.size.log2().round().exp2().recip();
-    let known = points.len();
     let vertices: Vec<Point2<f64>> = points
         .iter()
         .chain(&inside)
@@ -95,8 +106,14 @@ pub(crate) fn triangulate(
         cdt.refine(parameters);
         cdt
     });
-    let cdt = refined.or_else(|_| load())?;
-    let mesh = extract(&cdt, scale.recip(), &points, known, &segments, rings)?;
+    let mut cdt = refined.or_else(|_| load())?;
+    let inner_edges = add_lines(&mut cdt, &on_lines)?;
+    let given = Given {
+        points: &points,
+        segments: &segments,
+        rings,
+    };
+    let mesh = extract(&cdt, scale.recip(), &given, &inner_edges)?;
     let expected: f64 = rings.iter().map(Ring::area).sum();
     let got = mesh.area();
     if (got - expected).abs() > 1e-7 * expected.abs() + 1e-12 * frame.size * frame.size {
@@ -131,16 +148,46 @@ fn refinement(unit: f64, min_angle_deg: f64, budget: usize) -> RefinementParamet
         .with_max_additional_vertices(budget)
 }
 
+/// Adds the segments of constraint lines; gives for each undirected edge the
+/// line it lies on, or `u32::MAX`. An empty list stands for no lines at all.
+fn add_lines(cdt: &mut Cdt, on_lines: &[Segment]) -> Result<Vec<u32>, FieldError> {
+    let mut added = Vec::with_capacity(on_lines.len());
+    for segment in on_lines {
+        let [from, to] =
+            [segment.from, segment.to].map(|v| FixedVertexHandle::from_index(v as usize));
+        let edges = cdt.try_add_constraint(from, to);
+        if edges.is_empty() {
+            return Err(FieldError::BadLine {
+                line: (segment.ring & !LINE) as usize,
+                why: "comes too near to the boundary or to another line to be told from it".into(),
+            });
+        }
+        added.push((edges, segment.ring & !LINE));
+    }
+    if added.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut line_of = vec![u32::MAX; cdt.num_undirected_edges()];
+    for (edges, line) in added {
+        for edge in edges {
+            line_of[edge.as_undirected().index()] = line;
+        }
+    }
+    Ok(line_of)
+}
+
+/// What the triangulation was made from.
+struct Given<'a> {
+    points: &'a [V2],
+    segments: &'a [Segment],
+    rings: &'a [Ring],
+}
+
 /// Reads the triangles inside the rings out of the triangulation.
-fn extract(
-    cdt: &Cdt,
-    scale: f64,
-    given: &[V2],
-    known: usize,
-    segments: &[Segment],
-    rings: &[Ring],
-) -> Result<Mesh, FieldError> {
-    let inside = inner_faces(cdt);
+fn extract(cdt: &Cdt, scale: f64, given: &Given<'_>, line_of: &[u32]) -> Result<Mesh, FieldError> {
+    let known = given.points.len();
+    let is_line = |edge: usize| line_of.get(edge).is_some_and(|&line| line != u32::MAX);
+    let inside = inner_faces(cdt, is_line);
     let mut number = vec![u32::MAX; cdt.num_all_faces()];
     let mut vertex = vec![u32::MAX; cdt.num_vertices()];
     let mut original = Vec::new();
@@ -149,6 +196,7 @@ fn extract(
         triangles: Vec::new(),
         neighbours: Vec::new(),
         borders: Vec::new(),
+        line_edges: Vec::new(),
     };
     for face in cdt.inner_faces().filter(|face| inside[face.index()]) {
         number[face.index()] = mesh.triangles.len() as u32;
@@ -170,7 +218,7 @@ fn extract(
         original.push(v.index());
         // Ring points as given, to the bit.
         mesh.points.push(if v.index() < known {
-            given[v.index()]
+            given.points[v.index()]
         } else {
             V2::new(p.x, p.y) * scale
         });
@@ -181,7 +229,9 @@ fn extract(
             let across = edge.rev().face();
             neighbours[k] = match across.as_inner() {
                 Some(inner)
-                    if inside[inner.index()] && !edge.as_undirected().is_constraint_edge() =>
+                    if inside[inner.index()]
+                        && (!edge.as_undirected().is_constraint_edge()
+                            || is_line(edge.as_undirected().index())) =>
                 {
                     number[inner.index()]
                 }
@@ -211,13 +261,22 @@ fn extract(
             what: "no triangle lies inside the polygon".into(),
         });
     }
-    label(&mut mesh, &original, known, segments, rings);
+    label(&mut mesh, &original, known, given.segments, given.rings);
+    for (edge, &line) in cdt.undirected_edges().zip(line_of) {
+        if line != u32::MAX {
+            let [from, to] = edge.vertices().map(|v| vertex[v.index()]);
+            if from != u32::MAX && to != u32::MAX {
+                mesh.line_edges.push((from, to, line));
+            }
+        }
+    }
+    mesh.line_edges.sort_unstable_by_key(|e| (e.2, e.0, e.1));
     Ok(mesh)
 }
 
 /// Which faces lie inside, by the parity of constraint edges crossed on the
-/// way in from the outer face.
-fn inner_faces(cdt: &Cdt) -> Vec<bool> {
+/// way in from the outer face; those on constraint lines do not count.
+fn inner_faces(cdt: &Cdt, is_line: impl Fn(usize) -> bool) -> Vec<bool> {
     let mut depth = vec![u32::MAX; cdt.num_all_faces()];
     // Breadth first by depth: faces behind a constraint edge wait a round.
     let mut now = vec![cdt.outer_face().fix()];
@@ -237,7 +296,8 @@ fn inner_faces(cdt: &Cdt) -> Vec<bool> {
                 if depth[across.index()] <= level {
                     continue;
                 }
-                if edge.as_undirected().is_constraint_edge() {
+                let undirected = edge.as_undirected();
+                if undirected.is_constraint_edge() && !is_line(undirected.index()) {
                     later.push(across.fix());
                 } else {
                     depth[across.index()] = level;

@@ -1,7 +1,7 @@
 """Processor time of Triangle (pip install triangle numpy) on the outline of
 benches/domain.rs, with the area bound that our meshes are refined to.
 
-python3 benches/triangle.py [VERTICES ...]
+python3 benches/triangle_peer.py [VERTICES ...]
 """
 
 import math
