@@ -9,6 +9,7 @@
 
 use std::collections::BTreeSet;
 
+use super::core::{Core, Points};
 use super::lines::Lines;
 use super::ring::Ring;
 use super::sizing::Sizing;
@@ -40,6 +41,10 @@ impl Segment {
 /// are left out: closer ones make flat triangles, a wider gap makes refinement
 /// fill it again.
 const CLEARANCE: f64 = 0.62;
+
+/// Lattice points farther from the boundary than this many steps belong to
+/// the core. Refinement works within about two.
+const BAND: f64 = 3.5;
 
 /// Points of all rings and lines, subdivided as `sizing` says, equal points
 /// merged.
@@ -134,19 +139,39 @@ fn merge(points: Vec<V2>, mut segments: Vec<Segment>) -> (Vec<V2>, Vec<Segment>)
 /// Where the mesh is graded, finer lattices, each of half the step, fill the
 /// neighbourhood of shorter segments. Each holds the points of the coarser
 /// ones, so that triangles in between have no angle below 30 degrees.
+///
+/// With `cored`, the points that are far from all segments are triangulated
+/// apart.
 pub(crate) fn interior(
     rings: &[Ring],
     points: &[V2],
     segments: &[Segment],
     sizing: &Sizing,
-) -> Vec<V2> {
+    cored: bool,
+) -> (Vec<V2>, Core) {
     let mut inside = Vec::new();
+    let mut core = Core::default();
     for level in 0..=sizing.levels {
         let step = sizing.step * 0.5_f64.powi(level as i32);
         let frame = LatticeFrame::new(rings, step);
-        Rows::new(&frame, points, segments, sizing, level).fill(&frame, level, &mut inside);
+        let rows = Rows::new(&frame, points, segments, sizing, level, cored);
+        if cored && level == 0 {
+            let mut far = Points::new(rows.first, rows.crossings.len());
+            rows.fill(&frame, level, |row, column, near, p| {
+                if near {
+                    inside.push(p);
+                } else {
+                    far.push(row, column, p);
+                }
+            });
+            let (triangulated, alone) = far.triangulate();
+            core = triangulated;
+            inside.extend(alone);
+        } else {
+            rows.fill(&frame, level, |_, _, _, p| inside.push(p));
+        }
     }
-    inside
+    (inside, core)
 }
 
 /// What the segments say about the rows of one lattice.
@@ -156,8 +181,9 @@ struct Rows {
     crossings: Vec<Vec<f64>>,
     /// Columns too near to a segment.
     blocked: Vec<Vec<i64>>,
-    /// Columns that a segment wants; not used on the coarsest lattice.
-    wanted: Vec<Vec<i64>>,
+    /// Columns near to a segment: on the coarsest lattice those that are not
+    /// of the core, on finer ones those that are wanted.
+    near: Vec<Vec<i64>>,
 }
 
 impl Rows {
@@ -169,6 +195,7 @@ impl Rows {
         segments: &[Segment],
         sizing: &Sizing,
         level: u32,
+        cored: bool,
     ) -> Self {
         let height = frame.row_height;
         let heights = || points.iter().map(|&p| frame.to(p).y);
@@ -180,7 +207,7 @@ impl Rows {
             first,
             crossings: vec![Vec::new(); count],
             blocked: vec![Vec::new(); count],
-            wanted: vec![Vec::new(); if level > 0 { count } else { 0 }],
+            near: vec![Vec::new(); count],
         };
         for segment in segments {
             let a = frame.to(points[segment.from as usize]);
@@ -200,9 +227,21 @@ impl Rows {
             rows.around(frame, a, b, clear, |rows, slot, column| {
                 rows.blocked[slot].push(column);
             });
-            if let Some(reach) = sizing.reach(length, level).filter(|r| r.is_finite()) {
+            let reach = match level {
+                0 if cored => {
+                    let graded = if sizing.levels > 0 {
+                        sizing.reach(length, 1)
+                    } else {
+                        None
+                    };
+                    Some(BAND * frame.step + graded.unwrap_or(0.0))
+                }
+                0 => None,
+                _ => sizing.reach(length, level),
+            };
+            if let Some(reach) = reach {
                 rows.around(frame, a, b, reach, |rows, slot, column| {
-                    rows.wanted[slot].push(column);
+                    rows.near[slot].push(column);
                 });
             }
         }
@@ -255,25 +294,23 @@ impl Rows {
         }
     }
 
-    /// Appends the points of this lattice that lie inside and are not blocked.
-    fn fill(mut self, frame: &LatticeFrame, level: u32, inside: &mut Vec<V2>) {
+    /// Calls `visit` with the points of this lattice that lie inside and are
+    /// not blocked, and whether they are near to a segment.
+    fn fill(mut self, frame: &LatticeFrame, level: u32, mut visit: impl FnMut(i64, i64, bool, V2)) {
         for slot in 0..self.crossings.len() {
             let row = slot as i64 + self.first;
             let shift = frame.shift(row);
-            let (cuts, holes) = (&mut self.crossings[slot], &mut self.blocked[slot]);
+            let cuts = &mut self.crossings[slot];
             cuts.sort_by(f64::total_cmp);
-            holes.sort_unstable();
-            holes.dedup();
-            let mut hole = 0;
-            let mut push = |column: i64| {
-                while hole < holes.len() && holes[hole] < column {
-                    hole += 1;
-                }
-                if holes.get(hole) != Some(&column) {
-                    inside.push(frame.back(V2::new(
+            let mut blocked = Marks::new(&mut self.blocked[slot]);
+            let near = &mut self.near[slot];
+            let mut push = |column: i64, near: bool| {
+                if !blocked.has(column) {
+                    let p = V2::new(
                         column as f64 * frame.step + shift,
                         row as f64 * frame.row_height,
-                    )));
+                    );
+                    visit(row, column, near, frame.back(p));
                 }
             };
             let spans = cuts.chunks_exact(2).map(|span| {
@@ -282,21 +319,44 @@ impl Rows {
                 (left, right)
             });
             if level == 0 {
-                spans.for_each(|(left, right)| (left..=right).for_each(&mut push));
+                let mut near = Marks::new(near);
+                for (left, right) in spans {
+                    (left..=right).for_each(|column| push(column, near.has(column)));
+                }
                 continue;
             }
-            let wanted = &mut self.wanted[slot];
-            wanted.sort_unstable();
-            wanted.dedup();
+            near.sort_unstable();
+            near.dedup();
             for (left, right) in spans {
-                let from = wanted.partition_point(|&column| column < left);
-                let to = wanted.partition_point(|&column| column <= right);
-                wanted[from..to.max(from)]
+                let from = near.partition_point(|&column| column < left);
+                let to = near.partition_point(|&column| column <= right);
+                near[from..to.max(from)]
                     .iter()
                     .filter(|&&column| !is_coarser(row, column))
-                    .for_each(|&column| push(column));
+                    .for_each(|&column| push(column, true));
             }
         }
+    }
+}
+
+/// A set of columns that is asked in ascending order.
+struct Marks<'a> {
+    columns: &'a [i64],
+    next: usize,
+}
+
+impl<'a> Marks<'a> {
+    fn new(columns: &'a mut Vec<i64>) -> Self {
+        columns.sort_unstable();
+        columns.dedup();
+        Self { columns, next: 0 }
+    }
+
+    fn has(&mut self, column: i64) -> bool {
+        while self.next < self.columns.len() && self.columns[self.next] < column {
+            self.next += 1;
+        }
+        self.columns.get(self.next) == Some(&column)
     }
 }
 
@@ -385,7 +445,7 @@ mod tests {
         let sizing = Sizing::new(&rings, 2.0, &DomainOptions::default());
         let (points, segments) = boundary(&rings, &Lines::default(), &sizing);
         assert_eq!(points.len(), segments.len());
-        let inside = interior(&rings, &points, &segments, &sizing);
+        let (inside, _) = interior(&rings, &points, &segments, &sizing, false);
         let expected = (10_000.0 - 600.0 - 1.2 * (400.0 + 120.0)) / (4.0 * 0.75_f64.sqrt());
         assert!((inside.len() as f64 / expected - 1.0).abs() < 0.05);
         for p in &inside {

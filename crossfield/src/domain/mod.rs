@@ -1,5 +1,6 @@
 //! A triangulated polygon, the ground that fields are designed on.
 
+mod core;
 mod lattice;
 mod lines;
 mod locate;

@@ -18,9 +18,14 @@ pub(crate) struct Sizing {
     pub(crate) grading: f64,
     /// Halvings of `step` that the mesh goes through.
     pub(crate) levels: u32,
+    /// Vertices of an even mesh.
+    expected: f64,
     short: Vec<(V2, V2)>,
     tree: Tree,
 }
+
+/// Below some thousand vertices the band along the boundary is most of it.
+const LARGE: f64 = 6000.0;
 
 /// Most halvings: an edge length of a thousandth of the wanted one.
 const MOST_LEVELS: u32 = 10;
@@ -55,14 +60,22 @@ impl Sizing {
             .iter()
             .map(|&(a, b)| Bound::of_segment(a, b, grading.recip()))
             .collect();
+        let area: f64 = rings.iter().map(Ring::area).sum();
         Self {
             step,
+            expected: area / (0.87 * step * step),
             boundary,
             grading,
             levels,
             tree: Tree::new(&bounds),
             short,
         }
+    }
+
+    /// Whether the mesh has so many vertices that its core is worth being
+    /// triangulated apart.
+    pub(crate) fn is_large(&self) -> bool {
+        self.expected > LARGE
     }
 
     /// Wanted length at `p` on the boundary.
@@ -107,12 +120,9 @@ impl Sizing {
         points
     }
 
-    /// How far from a segment of length `length` lattice points of level
-    /// `level`, a halving each, are wanted; `None` if nowhere.
+    /// How far from a segment of length `length` points of the lattice of
+    /// `level` halvings are wanted; `None` if nowhere. From one halving on.
     pub(crate) fn reach(&self, length: f64, level: u32) -> Option<f64> {
-        if level == 0 {
-            return Some(f64::INFINITY);
-        }
         // The finer lattice begins where the length is nearer to it than to
         // the coarser one, in ratio.
         let step = self.step * 0.5_f64.powi(level as i32) * std::f64::consts::SQRT_2;
