@@ -12,7 +12,9 @@ mod harmonic;
 mod measure;
 mod operators;
 mod plane;
+mod report;
 mod singularity;
+mod turning;
 
 pub use boundary::{BoundaryField, CornerRule};
 pub use cross::Cross;
@@ -23,4 +25,6 @@ pub use field::{Field, FieldDesign};
 pub use geo_types;
 pub use harmonic::HarmonicField;
 pub use operators::Laplacian;
+pub use report::{compare, Comparison, FieldReport};
 pub use singularity::{IndexCheck, Singularity};
+pub use turning::{AlongCurve, Turning};

@@ -16,7 +16,7 @@ use crate::plane::{left, vector, wedge, wrapped, V2};
 impl Field {
     /// Gradient of the angle u in a triangle, radians per metre; `None` if
     /// the triangle is singular.
-    fn angle_gradient(&self, triangle: usize) -> Option<V2> {
+    pub(crate) fn angle_gradient(&self, triangle: usize) -> Option<V2> {
         let inner = &*self.domain().inner;
         let vertices = inner.mesh.triangles[triangle].map(|v| v as usize);
         let phases = vertices.map(|v| {

@@ -543,6 +543,12 @@ impl Domain {
         topology::min_angle(&self.inner.mesh)
     }
 
+    /// Whether both are one mesh: clones of each other.
+    #[must_use]
+    pub fn is_same(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.inner, &other.inner)
+    }
+
     pub(crate) fn local(&self, at: Coord<f64>) -> V2 {
         vector(at) - self.inner.frame.origin
     }
