@@ -9,6 +9,8 @@ mod factor;
 mod field;
 mod footpoint;
 mod harmonic;
+#[cfg(any(test, feature = "laws"))]
+pub mod laws;
 mod measure;
 mod operators;
 mod plane;

@@ -414,18 +414,28 @@ impl LatticeFrame {
     }
 }
 
-/// Centroid of the area within a ring.
+/// Centroid of the area within a ring; for one that crosses itself, whose
+/// centroid can be anywhere, the middle of its bounding box. (It is refused
+/// later, by name.)
 fn centroid(points: &[V2]) -> V2 {
     let origin = points[0];
     let mut moment = V2::zeros();
     let mut area = 0.0;
+    let (mut low, mut high) = (origin, origin);
     for pair in points.windows(2) {
         let (a, b) = (pair[0] - origin, pair[1] - origin);
         moment += (a + b) * wedge(a, b);
         area += wedge(a, b);
+        (low, high) = (low.inf(&pair[1]), high.sup(&pair[1]));
     }
     // Rings without area are refused before.
-    origin + moment / (3.0 * area)
+    let centre = origin + moment / (3.0 * area);
+    let within = |k: usize| (low[k]..=high[k]).contains(&centre[k]);
+    if within(0) && within(1) {
+        centre
+    } else {
+        low + (high - low) / 2.0
+    }
 }
 
 #[cfg(test)]
