@@ -136,6 +136,10 @@ fn order(coarse: &Level, fine: &Level) -> Order {
     }
 }
 
+/// Errors below this are rounding, radians: angles of unit vectors are rounded
+/// to 1e-16, and to 1e-9 at map coordinates.
+const EXACT: f64 = 1e-9;
+
 impl fmt::Display for Convergence {
     /// A table in Markdown: errors in degrees, and the order from each mesh to
     /// the next.
@@ -146,25 +150,21 @@ impl fmt::Display for Convergence {
         )?;
         writeln!(f, "|---|---|---|---|---|---|")?;
         for (k, level) in self.levels.iter().enumerate() {
-            let orders = match k.checked_sub(1).map(|k| order(&self.levels[k], level)) {
-                Some(o) => [o.mean, o.max].map(|o| {
-                    if o.is_finite() {
-                        format!("{o:.2}")
-                    } else {
-                        "-".to_owned()
-                    }
-                }),
-                None => [String::new(), String::new()],
+            let from = k.checked_sub(1).map(|k| order(&self.levels[k], level));
+            let cells = |error: f64, order: Option<f64>| match order {
+                _ if error < EXACT => "exact | ".to_owned(),
+                Some(order) if order.is_finite() => {
+                    format!("{:.2e} | {order:.2}", error.to_degrees())
+                }
+                _ => format!("{:.2e} | ", error.to_degrees()),
             };
             writeln!(
                 f,
-                "| {} | {} | {:.2e} | {} | {:.2e} | {} |",
+                "| {} | {} | {} | {} |",
                 level.edge_length,
                 level.vertices,
-                level.mean.to_degrees(),
-                orders[0],
-                level.max.to_degrees(),
-                orders[1],
+                cells(level.mean, from.map(|o| o.mean)),
+                cells(level.max, from.map(|o| o.max)),
             )?;
         }
         Ok(())

@@ -20,6 +20,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#![doc = include_str!("../../convergence.md")]
+
 mod convergence;
 pub mod shapes;
 

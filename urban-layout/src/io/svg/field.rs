@@ -14,7 +14,7 @@ const LONG_SIDE: f64 = 20_000.0;
 /// Around the site, sheet units.
 const MARGIN: f64 = 500.0;
 /// Cells of the divergence map along the longer side.
-const CELLS: f64 = 120.0;
+const CELLS: f64 = 160.0;
 /// Streamlines side by side along the longer side.
 const LINES: f64 = 56.0;
 
@@ -72,10 +72,19 @@ pub fn field_svg(study: &FieldStudy, site: &Site) -> String {
         height / super::UNITS,
     ));
     let mut outline = PathData::default();
+    for part in &site.parts {
+        outline.polygon(part, &to);
+    }
+    canvas.raw(&format!(
+        "<clipPath id=\"land\"><path clip-rule=\"evenodd\" d=\"{}\"/></clipPath>\n<g clip-path=\"url(#land)\">\n",
+        outline.0
+    ));
     for (part, field) in site.parts.iter().zip(&study.fields) {
         shade(&mut canvas, part, field, size / CELLS, &to);
+    }
+    canvas.raw("</g>\n");
+    for (part, field) in site.parts.iter().zip(&study.fields) {
         streamlines(&mut canvas, part, field, size / LINES, &to);
-        outline.polygon(part, &to);
     }
     canvas.path(
         &outline.0,
