@@ -13,22 +13,33 @@ use std::time::Instant;
 use crossfield::geo_types::Polygon;
 use crossfield::{DistanceField, Domain, DomainOptions, FieldDesign};
 
-/// A wavy region of 0.5 km2 with a hole, 300 boundary vertices.
-fn region() -> Polygon<f64> {
+/// A wavy region of 0.5 km2 with a hole, 300 boundary vertices or a multiple.
+fn region(dense: usize) -> Polygon<f64> {
     let ring = |count: usize, f: &dyn Fn(f64) -> (f64, f64)| {
         let points: Vec<(f64, f64)> = (0..count)
             .map(|k| f(TAU * k as f64 / count as f64))
             .collect();
         points
     };
-    let outer = ring(240, &|a| {
+    let outer = ring(240 * dense, &|a| {
         let r = 390.0 * (1.0 + 0.25 * (3.0 * a).sin() + 0.08 * (7.0 * a).cos());
         (5e5 + r * a.cos(), 5e6 + r * a.sin())
     });
-    let hole = ring(60, &|a| {
+    let hole = ring(60 * dense, &|a| {
         (5e5 + 60.0 + 80.0 * a.cos(), 5e6 - 40.0 + 50.0 * a.sin())
     });
     Polygon::new(outer.into(), vec![hole.into()])
+}
+
+/// A disc of 0.5 km2, all of whose edges are equally near to its centre.
+fn disc(count: usize) -> Polygon<f64> {
+    let points: Vec<(f64, f64)> = (0..count)
+        .map(|k| {
+            let (s, c) = (TAU * k as f64 / count as f64).sin_cos();
+            (400.0 * c, 400.0 * s)
+        })
+        .collect();
+    Polygon::new(points.into(), vec![])
 }
 
 /// Nanoseconds this thread has run, where the system tells; else a clock.
@@ -72,15 +83,26 @@ fn main() {
     } else {
         wanted
     };
-    let region = region();
-    let area = Domain::new(&region, &DomainOptions::default())
+    let outlines = [
+        ("region, 300 edges", region(1)),
+        ("region, 12 000 edges", region(40)),
+        ("disc, 10 000 edges", disc(10_000)),
+    ];
+    for (name, outline) in outlines {
+        println!("\n{name}\n");
+        table(&outline, &wanted);
+    }
+}
+
+fn table(outline: &Polygon<f64>, wanted: &[f64]) {
+    let area = Domain::new(outline, &DomainOptions::default())
         .expect("valid")
         .area();
     println!(
         "| vertices | triangles | min angle | domain s | D-field s | ns a vertex | smoothing s |"
     );
     println!("|---|---|---|---|---|---|---|");
-    for count in wanted {
+    for &count in wanted {
         let runs = 3;
         let options = DomainOptions {
             // An equilateral triangle has sqrt(3) / 4 h^2, a vertex has two.
@@ -88,7 +110,7 @@ fn main() {
             max_vertices: 4_000_000,
             ..DomainOptions::default()
         };
-        let (mesh, domain) = least(runs, || Domain::new(&region, &options).expect("valid"));
+        let (mesh, domain) = least(runs, || Domain::new(outline, &options).expect("valid"));
         let (raw, _) = least(runs, || {
             let design = DistanceField {
                 smoothing_rounds: 0,

@@ -118,6 +118,24 @@ impl Shape {
     }
 }
 
+impl Shape {
+    /// Distance of `p` from the part of the boundary that the shape stands on.
+    fn gap(&self, p: V2) -> f64 {
+        match *self {
+            Self::Edge {
+                start,
+                direction,
+                length,
+                ..
+            } => {
+                let d = p - start;
+                (d - direction * direction.dot(&d).clamp(0.0, length)).norm()
+            }
+            Self::Turn { at, .. } | Self::Tangents { at, .. } => (p - at).norm(),
+        }
+    }
+}
+
 /// A shape and the part of the boundary it belongs to.
 #[derive(Clone, Copy, Debug)]
 struct Site {
@@ -135,6 +153,8 @@ pub(super) struct Sites<'a> {
     sites: Vec<Site>,
     tree: Tree,
     slack: f64,
+    /// One over the smallest weight.
+    most_per_weight: f64,
     /// Whether footpoints that `p` cannot see are left out.
     seen_only: bool,
 }
@@ -157,6 +177,7 @@ impl<'a> Sites<'a> {
         let mut sites = Vec::new();
         let mut bounds = Vec::new();
         let mut size = 0.0_f64;
+        let mut least = f64::INFINITY;
         for (index, (ring, weights)) in rings.iter().zip(weights).enumerate() {
             for (k, &weight) in weights.iter().enumerate() {
                 let mut push = |shape, bound| {
@@ -169,6 +190,7 @@ impl<'a> Sites<'a> {
                 };
                 let (a, b) = ring.edge(k);
                 size = size.max(a.amax());
+                least = least.min(weight.start).min(weight.end);
                 let direction = ring.direction(k);
                 let length = (b - a).norm();
                 let shape = Shape::Edge {
@@ -198,6 +220,7 @@ impl<'a> Sites<'a> {
             sites,
             tree,
             slack: 1e-12 * size,
+            most_per_weight: least.recip(),
             seen_only,
         }
     }
@@ -248,20 +271,25 @@ impl<'a> Sites<'a> {
     fn search(&self, p: V2, search: &mut Search, seen: bool) -> Option<(usize, Foot)> {
         let widened = |d: f64| d * (1.0 + TIE) + self.slack;
         let accept = |k: usize| !seen || self.sees(k, p);
-        let limit = search
-            .last
-            .filter(|&k| accept(k))
-            .and_then(|k| self.foot(k, p))
-            .map_or(f64::INFINITY, |foot| widened(foot.weighted));
+        let distance = |k: usize| self.foot(k, p).map(|foot| foot.weighted);
+        // The nearest boundary point of all is a footpoint that is seen, and
+        // no farther than any other boundary point.
+        let limit = search.last.map_or(f64::INFINITY, |k| {
+            let any = self.sites[k].shape.gap(p) * self.most_per_weight;
+            match distance(k) {
+                Some(d) if d < any && accept(k) => widened(d),
+                _ => widened(any),
+            }
+        });
         search.found.clear();
-        self.tree.nearest_and_ties(
-            p,
-            limit,
-            widened,
-            |k| self.foot(k, p).map(|foot| foot.weighted),
-            accept,
-            &mut search.found,
-        );
+        for limit in [limit, f64::INFINITY] {
+            self.tree
+                .nearest_and_ties(p, limit, widened, distance, accept, &mut search.found);
+            // Outside the domain the first limit may be too low.
+            if !search.found.is_empty() {
+                break;
+            }
+        }
         let mut sum = V2::zeros();
         let mut best: Option<(usize, Foot)> = None;
         for &(k, _) in &search.found {

@@ -258,7 +258,7 @@ fn ring(numbers: &mut Numbers) -> Vec<(f64, f64)> {
 fn options(numbers: &mut Numbers, size: f64) -> DomainOptions {
     let mut options = DomainOptions {
         edge_length: size * numbers.pick(&[0.0, 0.05, 0.1, 0.3, 100.0]),
-        max_vertices: numbers.pick(&[0, 10, 2000, 4000]),
+        max_vertices: numbers.pick(&[0, 10, 200, 400, 400, 1000, 3000]),
         min_angle_deg: numbers.pick(&[0.0, 20.0, 25.0, 32.0]),
         corner_deg: numbers.pick(&[1e-3, 30.0, 60.0, 179.0]),
         ..DomainOptions::default()
