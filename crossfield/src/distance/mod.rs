@@ -28,6 +28,8 @@ use weights::EdgeWeight;
 
 /// The distance field (D-field) of a domain.
 ///
+#[doc = include_str!("../../images/d-field.svg")]
+///
 /// ```
 /// use crossfield::{geo_types::{coord, polygon}, Cursor, DistanceField, Domain, DomainOptions,
 ///     FieldDesign};
