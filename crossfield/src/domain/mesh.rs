@@ -389,11 +389,12 @@ fn extract(
     }
     label(&mut mesh, &original, known, given.segments, given.rings);
     for (edge, &line) in cdt.undirected_edges().zip(line_of) {
-        if line != u32::MAX {
-            let [from, to] = edge.vertices().map(|v| vertex[v.index()]);
-            if from != u32::MAX && to != u32::MAX {
-                mesh.line_edges.push((from, to, line));
-            }
+        let [from, to] = edge.vertices().map(|v| vertex[v.index()]);
+        // Across a hole that is thinner than points are told apart, a line
+        // may have an edge outside.
+        let sides = [edge.as_directed(), edge.as_directed().rev()];
+        if line != u32::MAX && sides.iter().any(|side| inside[side.face().index()]) {
+            mesh.line_edges.push((from, to, line));
         }
     }
     mesh.line_edges.sort_unstable_by_key(|e| (e.2, e.0, e.1));
