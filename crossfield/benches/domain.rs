@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 use std::time::Instant;
 
 use crossfield::geo_types::Polygon;
-use crossfield::{DistanceField, Domain, DomainOptions, FieldDesign};
+use crossfield::{DistanceField, Domain, DomainOptions, FieldDesign, Weighting};
 
 /// A wavy region of 0.5 km2 with a hole, 300 boundary vertices or a multiple.
 fn region(dense: usize) -> Polygon<f64> {
@@ -99,9 +99,9 @@ fn table(outline: &Polygon<f64>, wanted: &[f64]) {
         .expect("valid")
         .area();
     println!(
-        "| vertices | triangles | min angle | domain s | D-field s | ns a vertex | smoothing s |"
+        "| vertices | triangles | min angle | domain s | D-field s | ns a vertex | smoothing s | weighted s |"
     );
-    println!("|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|");
     for &count in wanted {
         let runs = 3;
         let options = DomainOptions {
@@ -121,8 +121,22 @@ fn table(outline: &Polygon<f64>, wanted: &[f64]) {
         let (whole, _) = least(runs, || {
             DistanceField::default().design(&domain).expect("a field")
         });
+        let weights = std::iter::once(outline.exterior())
+            .chain(outline.interiors())
+            .map(|ring| {
+                let count = ring.0.len() - 1;
+                let angle = |k: usize| TAU * k as f64 / count as f64;
+                (0..count).map(|k| 2.0 + angle(k).sin()).collect()
+            })
+            .collect();
+        let by_vertex = DistanceField {
+            weights,
+            weighting: Weighting::Vertices,
+            ..DistanceField::default()
+        };
+        let (weighted, _) = least(runs, || by_vertex.design(&domain).expect("a field"));
         println!(
-            "| {} | {} | {:.1} | {mesh:.4} | {whole:.4} | {:.0} | {:.4} |",
+            "| {} | {} | {:.1} | {mesh:.4} | {whole:.4} | {:.0} | {:.4} | {weighted:.4} |",
             domain.vertex_count(),
             domain.triangles().len(),
             domain.min_angle().to_degrees(),
