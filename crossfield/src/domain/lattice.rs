@@ -13,6 +13,7 @@ use super::core::{Core, Points};
 use super::lines::Lines;
 use super::ring::Ring;
 use super::sizing::Sizing;
+use crate::footpoint::{Bound, Tree};
 use crate::plane::{segment_distance_squared, wedge, V2};
 
 /// One straight piece of a subdivided ring edge.
@@ -48,11 +49,20 @@ const BAND: f64 = 3.5;
 
 /// Points of all rings and lines, subdivided as `sizing` says, equal points
 /// merged.
-pub(crate) fn boundary(rings: &[Ring], lines: &Lines, sizing: &Sizing) -> (Vec<V2>, Vec<Segment>) {
+///
+/// Ends early, with rings that are not whole, once there are more points than
+/// `allowed`.
+pub(crate) fn boundary(
+    rings: &[Ring],
+    lines: &Lines,
+    sizing: &Sizing,
+    allowed: usize,
+) -> (Vec<V2>, Vec<Segment>) {
     let mut points = Vec::new();
     let mut segments = Vec::new();
     let mut chain = |points: &mut Vec<V2>, a: V2, b: V2, least: usize, ring: u32, edge: u32| {
-        let inner = sizing.subdivide(a, b, least);
+        let room = allowed.saturating_sub(points.len()) + 1;
+        let inner = sizing.subdivide(a, b, least, room);
         for p in std::iter::once(a).chain(inner) {
             let from = points.len() as u32;
             points.push(p);
@@ -141,14 +151,16 @@ fn merge(points: Vec<V2>, mut segments: Vec<Segment>) -> (Vec<V2>, Vec<Segment>)
 /// ones, so that triangles in between have no angle below 30 degrees.
 ///
 /// With `cored`, the points that are far from all segments are triangulated
-/// apart.
+/// apart. Ends early once there are more than `allowed`.
 pub(crate) fn interior(
     rings: &[Ring],
     points: &[V2],
     segments: &[Segment],
     sizing: &Sizing,
     cored: bool,
+    allowed: usize,
 ) -> (Vec<V2>, Core) {
+    let clear = Clear::new(points, segments, sizing);
     let mut inside = Vec::new();
     let mut core = Core::default();
     for level in 0..=sizing.levels {
@@ -168,10 +180,52 @@ pub(crate) fn interior(
             core = triangulated;
             inside.extend(alone);
         } else {
-            rows.fill(&frame, level, |_, _, _, p| inside.push(p));
+            rows.fill(&frame, level, |_, _, _, p| {
+                if level == 0 || clear.of(p) {
+                    inside.push(p);
+                }
+            });
+        }
+        // Too many: the caller says so.
+        if inside.len() > allowed {
+            break;
         }
     }
     (inside, core)
+}
+
+/// Segments by how far lattice points keep off each.
+struct Clear {
+    segments: Vec<(V2, V2)>,
+    tree: Tree,
+}
+
+impl Clear {
+    fn new(points: &[V2], segments: &[Segment], sizing: &Sizing) -> Self {
+        let ends = |s: &Segment| (points[s.from as usize], points[s.to as usize]);
+        let segments: Vec<(V2, V2)> = if sizing.levels > 0 {
+            segments.iter().map(ends).collect()
+        } else {
+            Vec::new()
+        };
+        let bounds: Vec<Bound> = segments
+            .iter()
+            .map(|&(a, b)| Bound::of_segment(a, b, (b - a).norm()))
+            .collect();
+        Self {
+            tree: Tree::new(&bounds),
+            segments,
+        }
+    }
+
+    /// Whether `p` keeps off all segments, from each by a part of its length.
+    fn of(&self, p: V2) -> bool {
+        let parts = |k: usize| {
+            let (a, b) = self.segments[k];
+            Some(segment_distance_squared(p, a, b).sqrt() / (b - a).norm())
+        };
+        self.tree.nearest(p, CLEARANCE, parts).is_none()
+    }
 }
 
 /// What the segments say about the rows of one lattice.
@@ -217,16 +271,18 @@ impl Rows {
                 rows.cross(frame, a, b);
             }
             // On an even mesh the lattice keeps its own distance, on a graded
-            // one that of the segment.
-            let clear = CLEARANCE
-                * if sizing.levels > 0 {
+            // one that of the segment; points of finer lattices are asked one
+            // by one, since few of them are wanted beside a long segment.
+            if level == 0 {
+                let part = if sizing.levels > 0 {
                     length
                 } else {
                     frame.step
                 };
-            rows.around(frame, a, b, clear, |rows, slot, column| {
-                rows.blocked[slot].push(column);
-            });
+                rows.around(frame, a, b, CLEARANCE * part, |rows, slot, column| {
+                    rows.blocked[slot].push(column);
+                });
+            }
             let reach = match level {
                 0 if cored => {
                     let graded = if sizing.levels > 0 {
@@ -453,9 +509,9 @@ mod tests {
         );
         let (_, rings) = rings(&shape, 0.5).expect("valid");
         let sizing = Sizing::new(&rings, 2.0, &DomainOptions::default());
-        let (points, segments) = boundary(&rings, &Lines::default(), &sizing);
+        let (points, segments) = boundary(&rings, &Lines::default(), &sizing, 1_000_000);
         assert_eq!(points.len(), segments.len());
-        let (inside, _) = interior(&rings, &points, &segments, &sizing, false);
+        let (inside, _) = interior(&rings, &points, &segments, &sizing, false, 1_000_000);
         let expected = (10_000.0 - 600.0 - 1.2 * (400.0 + 120.0)) / (4.0 * 0.75_f64.sqrt());
         assert!((inside.len() as f64 / expected - 1.0).abs() < 0.05);
         for p in &inside {
@@ -500,7 +556,7 @@ mod tests {
         );
         let (_, rings) = rings(&shape, 0.5).expect("valid");
         let sizing = Sizing::new(&rings, 100.0, &DomainOptions::default());
-        let (points, segments) = boundary(&rings, &Lines::default(), &sizing);
+        let (points, segments) = boundary(&rings, &Lines::default(), &sizing, 1_000_000);
         // Four and three corners, a midpoint on each of the seven edges.
         assert_eq!((points.len(), segments.len()), (13, 14));
     }

@@ -60,8 +60,23 @@ pub(crate) fn triangulate(
     sizing: &Sizing,
     options: &DomainOptions,
 ) -> Result<Mesh, FieldError> {
-    let (points, mut segments) = boundary(rings, lines, sizing);
-    let (inside, core) = interior(rings, &points, &segments, sizing, sizing.is_large());
+    let allowed = options.max_vertices;
+    let too_many = |needed: usize| FieldError::TooManyVertices { needed, allowed };
+    let (points, mut segments) = boundary(rings, lines, sizing, allowed);
+    if points.len() > allowed {
+        return Err(too_many(points.len()));
+    }
+    let (inside, core) = interior(
+        rings,
+        &points,
+        &segments,
+        sizing,
+        sizing.is_large(),
+        allowed,
+    );
+    if points.len() + inside.len() > allowed {
+        return Err(too_many(points.len() + inside.len()));
+    }
     let on_lines: Vec<Segment> = segments.extract_if(.., |s| s.is_line()).collect();
     overlapping(rings, frame, &segments)?;
     let job = Job {
@@ -83,7 +98,7 @@ pub(crate) fn triangulate(
             .chain(&on_lines)
             .copied()
             .collect::<Vec<_>>();
-        let (inside, core) = interior(rings, &points, &both, sizing, false);
+        let (inside, core) = interior(rings, &points, &both, sizing, false, allowed);
         return job.run(&inside, &core)?.ok_or_else(without_core);
     }
     job.run(&inside, &core)?.ok_or_else(without_core)

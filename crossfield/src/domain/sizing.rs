@@ -92,12 +92,13 @@ impl Sizing {
     }
 
     /// The points that subdivide the segment from `a` to `b`, without its
-    /// ends; `least` parts at least.
-    pub(crate) fn subdivide(&self, a: V2, b: V2, least: usize) -> Vec<V2> {
+    /// ends; `least` parts at least, and of more than `most` points so many.
+    pub(crate) fn subdivide(&self, a: V2, b: V2, least: usize, most: usize) -> Vec<V2> {
         if self.short.is_empty() {
             let parts = ((b - a).norm() / self.boundary).ceil().max(1.0) as usize;
             let parts = parts.max(least);
             return (1..parts)
+                .take(most)
                 .map(|part| a + (b - a) * (part as f64 / parts as f64))
                 .collect();
         }
@@ -106,6 +107,9 @@ impl Sizing {
         let mut stack = vec![(0.0, 1.0)];
         let length = (b - a).norm();
         while let Some((from, to)) = stack.pop() {
+            if points.len() >= most {
+                break;
+            }
             let middle = (from + to) / 2.0;
             let wanted = self.on_boundary(a + (b - a) * middle);
             let halve =
