@@ -71,6 +71,14 @@ pub enum FieldError {
         /// The limit in force.
         allowed: usize,
     },
+    /// A constraint line could not be used.
+    #[error("constraint line {line} {why}; move or remove it")]
+    BadLine {
+        /// The line, counted from 0.
+        line: usize,
+        /// What is wrong with it.
+        why: String,
+    },
     /// The triangulation did not cover the polygon.
     #[error("triangulation failed: {what}; simplify the boundary or move its vertices apart")]
     MeshFailed {

@@ -226,14 +226,30 @@ impl Field {
 ///
 /// A vertex whose average vanishes keeps its vector.
 pub(crate) fn smooth(domain: &Domain, crosses: &mut Vec<V2>, rounds: usize) {
+    smooth_over(domain, crosses, rounds, |_| true);
+}
+
+/// [`smooth`], with averages taken over the vertices that count only.
+pub(crate) fn smooth_over(
+    domain: &Domain,
+    crosses: &mut Vec<V2>,
+    rounds: usize,
+    counts: impl Fn(usize) -> bool,
+) {
+    if rounds == 0 {
+        return;
+    }
     let inner: Vec<usize> = domain.inner_vertices().collect();
     let mut next = crosses.clone();
     for _ in 0..rounds {
         for &v in &inner {
             let neighbours = domain.neighbours(v);
-            let sum = neighbours
-                .iter()
-                .fold(crosses[v], |sum, &w| sum + crosses[w as usize]);
+            let mut sum = V2::zeros();
+            for w in std::iter::once(v).chain(neighbours.iter().map(|&w| w as usize)) {
+                if counts(w) {
+                    sum += crosses[w];
+                }
+            }
             let least = SINGULAR * (neighbours.len() + 1) as f64;
             next[v] = sum.try_normalize(least).unwrap_or(crosses[v]);
         }

@@ -11,15 +11,19 @@ mod factor;
 mod field;
 mod footpoint;
 mod harmonic;
+#[cfg(any(test, feature = "laws"))]
+pub mod laws;
 mod measure;
 mod operators;
 mod optimal;
 mod plane;
 mod prescribed;
 mod random;
+mod report;
 mod singularity;
 mod symmetry;
 mod system;
+mod turning;
 
 pub use boundary::{BoundaryField, CornerRule, Start};
 pub use constraint::{
@@ -27,8 +31,8 @@ pub use constraint::{
     Terrain,
 };
 pub use cross::Cross;
-pub use distance::DistanceField;
-pub use domain::{Corner, Cursor, Domain, DomainOptions, Exit};
+pub use distance::{DistanceField, Footpoint, Footpoints, MedialAxis, Sight, Weighting};
+pub use domain::{Corner, Cursor, Domain, DomainOptions, Exit, LineEdge, Piece};
 pub use error::FieldError;
 pub use field::{Field, FieldDesign};
 pub use geo_types;
@@ -38,3 +42,5 @@ pub use optimal::OptimalField;
 pub use prescribed::{Connection, PrescribedField};
 pub use singularity::{IndexCheck, Singularity};
 pub use symmetry::{Rosy, Symmetry};
+pub use report::{compare, Comparison, FieldReport};
+pub use turning::{AlongCurve, Turning};

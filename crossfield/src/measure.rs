@@ -17,7 +17,7 @@ use crate::symmetry::Rosy;
 impl Field {
     /// Gradient of the angle u in a triangle, radians per metre; `None` if
     /// the triangle is singular.
-    fn angle_gradient(&self, triangle: usize) -> Option<V2> {
+    pub(crate) fn angle_gradient(&self, triangle: usize) -> Option<V2> {
         let inner = &*self.domain().inner;
         let vertices = inner.mesh.triangles[triangle].map(|v| v as usize);
         let phases = vertices.map(|v| {

@@ -61,6 +61,34 @@ impl IndexCheck {
     pub fn boundary_law(&self) -> bool {
         self.interior + self.corners == self.folds * self.euler
     }
+
+    /// Whether both laws hold, the second where it applies: the public check
+    /// of a field.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.winding_law() && (!self.aligned || self.boundary_law())
+    }
+}
+
+impl std::fmt::Display for IndexCheck {
+    /// The balance, as in `-1 + 5 = 4 x 1`, with what is wrong with it.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let sign = if self.boundary_law() { "=" } else { "!=" };
+        let Self {
+            interior,
+            corners,
+            euler,
+            ..
+        } = self;
+        write!(f, "{interior} + {corners} {sign} 4 x {euler}")?;
+        if !self.aligned {
+            write!(f, " (not aligned)")?;
+        }
+        if !self.winding_law() {
+            write!(f, " (boundary winds by {})", self.boundary_winding)?;
+        }
+        Ok(())
+    }
 }
 
 impl Field {

@@ -25,6 +25,7 @@ pub mod adapt;
 mod assemble;
 pub mod check;
 mod error;
+pub mod field;
 mod inset;
 pub mod io;
 pub mod layout;

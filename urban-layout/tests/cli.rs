@@ -304,12 +304,116 @@ fn a_layout_that_breaks_a_law_is_status_3() {
 }
 
 #[test]
+fn a_field_is_drawn_and_measured() {
+    let bench = Bench::new();
+    for kind in ["distance", "boundary"] {
+        let words = ["field", "site.geojson", "--out", kind, "--field", kind];
+        let more = [
+            "--edge-length",
+            "8",
+            "--omega",
+            "50",
+            "--smoothing",
+            "2",
+            "--seed",
+            "3",
+            "--json",
+        ];
+        let figures = json(&bench.expect(0, &[&words[..], &more].concat()));
+        assert_eq!(names(&bench.path(kind)), ["field.json", "field.svg"]);
+        let written =
+            std::fs::read_to_string(bench.path(kind).join("field.json")).expect("written");
+        assert_eq!(json(&written), figures);
+        for key in ["vertices", "triangles"] {
+            assert!(figures[key].as_u64().is_some_and(|n| n > 500), "{key}");
+        }
+        for key in ["mesh", "field"] {
+            assert!(
+                figures["seconds"][key].as_f64().is_some_and(|s| s > 0.0),
+                "{key}"
+            );
+        }
+        // A rectangle: a constant field.
+        for key in ["energy", "mean_abs_divergence"] {
+            assert!(
+                figures[key].as_f64().is_some_and(|v| v.abs() < 1e-9),
+                "{key}"
+            );
+        }
+        assert_eq!(figures["singularities"], Value::Array(vec![]));
+        assert_eq!(figures["index_sum"], 0);
+        assert_eq!(figures["boundary_quarter_turns"], 4);
+        assert_eq!(figures["euler"], 1);
+        let svg = std::fs::read_to_string(bench.path(kind).join("field.svg")).expect("drawn");
+        assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"));
+        assert!(svg.len() < 200_000 && svg.matches("<path").count() >= 2);
+    }
+    let said = bench.expect(0, &["field", "site.geojson", "--out", "plain"]);
+    assert!(said.contains("0 singularities"), "{said}");
+}
+
+/// Singularities are in the coordinates of the file.
+#[test]
+fn singularities_of_a_field_are_where_the_file_has_them() {
+    let bench = Bench::new();
+    let triangle = FIELD.replace(
+        "[[[0, 0], [240, 0], [240, 150], [0, 150], [0, 0]]]",
+        "[[[5000, 7000], [5240, 7000], [5120, 7207.8], [5000, 7000]]]",
+    );
+    std::fs::write(bench.path("triangle.geojson"), triangle).expect("written");
+    let words = [
+        "field",
+        "triangle.geojson",
+        "--out",
+        "t",
+        "--field",
+        "boundary",
+        "--json",
+    ];
+    let figures = json(&bench.expect(0, &words));
+    let found = figures["singularities"].as_array().expect("a list");
+    assert_eq!(found.len(), 1);
+    assert_eq!(found[0]["quarter_index"], 1);
+    let near = |key: &str, wanted: f64| {
+        found[0][key]
+            .as_f64()
+            .is_some_and(|value| (value - wanted).abs() < 10.0)
+    };
+    assert!(
+        near("x", 5120.0) && near("y", 7000.0 + 207.8 / 3.0),
+        "{figures}"
+    );
+}
+
+#[test]
+fn wrong_fields_are_refused() {
+    let bench = Bench::new();
+    let field = ["field", "site.geojson", "--out", "field"];
+    for more in [
+        &["--field", "magnetic"][..],
+        &["--edge-length=-1"],
+        &["--edge-length", "nan"],
+        &["--edge-length", "0.001"],
+        &["--field", "boundary", "--omega", "0"],
+        &["--smoothing", "some"],
+    ] {
+        bench.expect(2, &[&field[..], more].concat());
+    }
+    bench.expect(2, &["field", "site.geojson"]);
+    std::fs::write(bench.path("bad.geojson"), BOW_TIE).expect("written");
+    bench.complaint(1, &["field", "bad.geojson", "--out", "field"]);
+    bench.complaint(1, &["field", "nowhere.geojson", "--out", "field"]);
+    assert!(!bench.path("field").exists(), "nothing may be written");
+}
+
+#[test]
 fn help_and_version_are_no_errors() {
     let bench = Bench::new();
     for words in [
         &["--help"][..],
         &["generate", "--help"],
         &["check", "--help"],
+        &["field", "--help"],
     ] {
         assert!(bench.expect(0, words).contains("Usage"), "{words:?}");
     }

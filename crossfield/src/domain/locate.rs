@@ -3,7 +3,8 @@
 
 use super::mesh::{Mesh, BORDER};
 use super::{Cursor, Exit, Inner};
-use crate::plane::{nearest_on_segment, orient, orient_exact, V2};
+use crate::footpoint::EdgeTree;
+use crate::plane::{nearest_on_segment, orient, orient_exact, wedge, V2};
 
 /// A uniform grid over the bounding box: for each cell the triangles whose
 /// bounding boxes meet it.
@@ -167,12 +168,29 @@ impl Inner {
 
     /// Follows the segment through the mesh to the border it first crosses.
     pub(crate) fn exit(&self, from: V2, to: V2, cursor: &mut Cursor) -> Option<Exit> {
-        let Some(mut triangle) = self.locate(from, cursor) else {
+        let Some(start) = self.locate(from, cursor) else {
             return Some(self.nearest_boundary(from));
         };
+        let mut last = start;
+        let border = self.traverse(start, from, to, |triangle| last = triangle);
+        *cursor = Cursor::at(last);
+        border.map(|border| self.crossing(border, from, to))
+    }
+
+    /// Calls `visit` with each triangle on the way from `start`, in which
+    /// `from` lies, along the segment; gives the border that the way ends at.
+    fn traverse(
+        &self,
+        start: usize,
+        from: V2,
+        to: V2,
+        mut visit: impl FnMut(usize),
+    ) -> Option<usize> {
+        let mut triangle = start;
         let mut entered = usize::MAX;
         // A straight line meets a triangle once.
         for _ in 0..=self.mesh.triangles.len() {
+            visit(triangle);
             let corners = self.corners(triangle);
             let beyond: [f64; 3] =
                 std::array::from_fn(|k| orient_exact(corners[k], corners[(k + 1) % 3], to));
@@ -190,11 +208,10 @@ impl Inner {
                         .filter(|&k| k != entered && beyond[k] < 0.0)
                         .min_by(|&a, &b| beyond[a].total_cmp(&beyond[b]))
                 });
-            let Some(k) = crossed else { break };
+            let k = crossed?;
             let next = self.mesh.neighbours[triangle][k];
             if next & BORDER != 0 {
-                *cursor = Cursor::at(triangle);
-                return Some(self.crossing((next & !BORDER) as usize, from, to));
+                return Some((next & !BORDER) as usize);
             }
             let shared = self.mesh.triangles[triangle][(k + 1) % 3];
             triangle = next as usize;
@@ -202,8 +219,74 @@ impl Inner {
                 .find(|&j| self.mesh.triangles[triangle][j] == shared)
                 .unwrap_or(usize::MAX);
         }
-        *cursor = Cursor::at(triangle);
         None
+    }
+
+    /// Calls `visit` with each triangle that the segment passes through and
+    /// the part of the segment in it, as two numbers between 0 and 1.
+    ///
+    /// The segment may leave the domain and come back.
+    pub(crate) fn follow(
+        &self,
+        from: V2,
+        to: V2,
+        cursor: &mut Cursor,
+        mut visit: impl FnMut(usize, f64, f64),
+    ) {
+        let way = to - from;
+        // Where the segment meets the boundary; between two such points it is
+        // inside or outside.
+        let mut cuts = vec![0.0, 1.0];
+        let tree = self.edges.get_or_init(|| EdgeTree::new(&self.rings));
+        tree.any_along(from, to, |ring, edge| {
+            let (a, b) = self.rings[ring as usize].edge(edge as usize);
+            let (one, two) = (orient(a, b, from), orient(a, b, to));
+            let t = one / (one - two);
+            if (0.0..=1.0).contains(&t) {
+                cuts.push(t);
+            }
+            false
+        });
+        cuts.sort_by(f64::total_cmp);
+        for pair in cuts.windows(2).filter(|pair| pair[1] - pair[0] > 1e-12) {
+            let at = |part: f64| from + way * (pair[0] + (pair[1] - pair[0]) * part);
+            // Off the boundary, where a point may be found on either side.
+            let (a, b) = (at(1e-9), at(1.0 - 1e-9));
+            let (Some(_), Some(start)) = (self.locate(at(0.5), cursor), self.locate(a, cursor))
+            else {
+                continue;
+            };
+            let mut last = start;
+            self.traverse(start, a, b, |triangle| {
+                last = triangle;
+                if let Some((low, high)) = self.clip(triangle, from, way) {
+                    let (low, high) = (low.max(pair[0]), high.min(pair[1]));
+                    if high > low {
+                        visit(triangle, low, high);
+                    }
+                }
+            });
+            *cursor = Cursor::at(last);
+        }
+    }
+
+    /// The part of the line `from + t way` that lies in a triangle.
+    fn clip(&self, triangle: usize, from: V2, way: V2) -> Option<(f64, f64)> {
+        let corners = self.corners(triangle);
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        for k in 0..3 {
+            let (a, b) = (corners[k], corners[(k + 1) % 3]);
+            let height = orient(a, b, from);
+            let slope = wedge(b - a, way);
+            if slope > 0.0 {
+                low = low.max(-height / slope);
+            } else if slope < 0.0 {
+                high = high.min(-height / slope);
+            } else if height < 0.0 {
+                return None;
+            }
+        }
+        (low < high).then_some((low, high))
     }
 
     /// Where the segment crosses a border, on the whole ring edge it is part

@@ -2,12 +2,16 @@
 
 use std::cell::Cell;
 
+use spade::handles::FixedVertexHandle;
 use spade::{
     AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementParameters, Triangulation,
 };
 
-use super::lattice::{boundary, interior, Segment};
+use super::core::{Core, NONE};
+use super::lattice::{boundary, interior, Segment, LINE};
+use super::lines::Lines;
 use super::ring::{Frame, Ring};
+use super::sizing::Sizing;
 use super::DomainOptions;
 use crate::plane::{orient_exact, V2};
 use crate::FieldError;
@@ -40,69 +44,164 @@ pub(crate) struct Mesh {
     /// `BORDER | index` into `borders`.
     pub(crate) neighbours: Vec<[u32; 3]>,
     pub(crate) borders: Vec<Border>,
+    /// Edges on constraint lines: from, to, and which line.
+    pub(crate) line_edges: Vec<(u32, u32, u32)>,
 }
 
-/// Triangulates the rings with triangle edges of about `step`.
+/// Triangulates the rings with triangle edges as long as `sizing` says.
+///
+/// Constraint lines are put in after refinement: their segments are as short
+/// as the lattice keeps away from them, so that most are edges already, and
+/// spade takes what lies behind a constraint for outside.
 pub(crate) fn triangulate(
     rings: &[Ring],
+    lines: &Lines,
     frame: Frame,
-    step: f64,
+    sizing: &Sizing,
     options: &DomainOptions,
 ) -> Result<Mesh, FieldError> {
-    let (points, segments) = boundary(rings, step);
+    let allowed = options.max_vertices;
+    let too_many = |needed: usize| FieldError::TooManyVertices { needed, allowed };
+    let (points, mut segments) = boundary(rings, lines, sizing, allowed);
+    if points.len() > allowed {
+        return Err(too_many(points.len()));
+    }
+    let (inside, core) = interior(
+        rings,
+        &points,
+        &segments,
+        sizing,
+        sizing.is_large(),
+        allowed,
+    );
+    if points.len() + inside.len() > allowed {
+        return Err(too_many(points.len() + inside.len()));
+    }
+    let on_lines: Vec<Segment> = segments.extract_if(.., |s| s.is_line()).collect();
     overlapping(rings, frame, &segments)?;
-    let inside = interior(rings, &points, &segments, step);
-    let total = points.len() + inside.len();
-    if total > options.max_vertices {
-        return Err(FieldError::TooManyVertices {
-            needed: total,
-            allowed: options.max_vertices,
-        });
-    }
-    // A power of two scales without rounding; it keeps spade's absolute
-    // limits (1e-43, 1e60) out of reach whatever the units of the domain.
-    let scale = frame.size.log2().round().exp2().recip();
-    let known = points.len();
-    let vertices: Vec<Point2<f64>> = points
-        .iter()
-        .chain(&inside)
-        .map(|p| Point2::new(flush(p.x * scale), flush(p.y * scale)))
-        .collect();
-    let constraints: Vec<[usize; 2]> = segments
-        .iter()
-        .map(|s| [s.from as usize, s.to as usize])
-        .collect();
-    let conflict = Cell::new(None);
-    let load = || {
-        Cdt::try_bulk_load_cdt(vertices.clone(), constraints.clone(), |pair| {
-            conflict.set(conflict.get().or(Some(pair)));
-        })
-        .map_err(|error| FieldError::MeshFailed {
-            what: format!("a vertex was refused ({error:?})"),
-        })
+    let job = Job {
+        rings,
+        frame,
+        points: &points,
+        segments: &segments,
+        on_lines: &on_lines,
+        step: sizing.step,
+        options,
     };
-    let plain = load()?;
-    if let Some(pair) = conflict.get() {
-        return Err(crossing(rings, frame, &points, &segments, pair));
+    if !core.triangles.is_empty() {
+        if let Some(mesh) = job.run(&inside, &core)? {
+            return Ok(mesh);
+        }
+        // Refinement reached the core: all goes through the triangulation.
+        let both = segments
+            .iter()
+            .chain(&on_lines)
+            .copied()
+            .collect::<Vec<_>>();
+        let (inside, core) = interior(rings, &points, &both, sizing, false, allowed);
+        return job.run(&inside, &core)?.ok_or_else(without_core);
     }
-    let budget = (options.max_vertices - total).min(2 * total + 1000);
-    let parameters = refinement(step * scale, options.min_angle_deg, budget);
-    // spade asserts on a circumcentre that rounding put out of range. That
-    // has not been seen, but must not take the caller down: the mesh then
-    // stays as it was, valid but not refined.
-    let refined = std::panic::catch_unwind(|| {
-        let mut cdt = plain;
-        cdt.refine(parameters);
-        cdt
-    });
-    let cdt = refined.or_else(|_| load())?;
-    let mesh = extract(&cdt, scale.recip(), &points, known, &segments, rings)?;
-    let expected: f64 = rings.iter().map(Ring::area).sum();
-    let got = mesh.area();
-    if (got - expected).abs() > 1e-7 * expected.abs() + 1e-12 * frame.size * frame.size {
-        return Err(misplaced(rings, frame, expected, got));
+    job.run(&inside, &core)?.ok_or_else(without_core)
+}
+
+/// A core that is empty cannot be in the way.
+fn without_core() -> FieldError {
+    FieldError::MeshFailed {
+        what: "the triangulation did not come together".into(),
     }
-    Ok(mesh)
+}
+
+/// All that a triangulation is made from, but the points inside.
+struct Job<'a> {
+    rings: &'a [Ring],
+    frame: Frame,
+    points: &'a [V2],
+    segments: &'a [Segment],
+    on_lines: &'a [Segment],
+    step: f64,
+    options: &'a DomainOptions,
+}
+
+impl Job<'_> {
+    /// The mesh, or `None` if refinement has split the rim of the core.
+    fn run(&self, inside: &[V2], core: &Core) -> Result<Option<Mesh>, FieldError> {
+        let Self {
+            rings,
+            frame,
+            points,
+            segments,
+            ..
+        } = *self;
+        let total = points.len() + inside.len() + core.points.len();
+        let options = self.options;
+        if total > options.max_vertices {
+            return Err(FieldError::TooManyVertices {
+                needed: total,
+                allowed: options.max_vertices,
+            });
+        }
+        // A power of two scales without rounding; it keeps spade's absolute
+        // limits (1e-43, 1e60) out of reach whatever the units of the domain.
+        let scale = frame.size.log2().round().exp2().recip();
+        let vertices: Vec<Point2<f64>> = points
+            .iter()
+            .chain(inside)
+            .chain(&core.points[..core.rim])
+            .map(|p| Point2::new(flush(p.x * scale), flush(p.y * scale)))
+            .collect();
+        let rim_start = points.len() + inside.len();
+        let rim_edges = core.rim_edges();
+        let rim = rim_edges
+            .iter()
+            .map(|e| [e.0, e.1].map(|v| rim_start + v as usize));
+        let constraints: Vec<[usize; 2]> = segments
+            .iter()
+            .map(|s| [s.from as usize, s.to as usize])
+            .chain(rim)
+            .collect();
+        let conflict = Cell::new(None);
+        let load = || {
+            Cdt::try_bulk_load_cdt(vertices.clone(), constraints.clone(), |pair| {
+                conflict.set(conflict.get().or(Some(pair)));
+            })
+            .map_err(|error| FieldError::MeshFailed {
+                what: format!("a vertex was refused ({error:?})"),
+            })
+        };
+        let plain = load()?;
+        if let Some(pair) = conflict.get() {
+            return Err(crossing(rings, frame, points, segments, pair));
+        }
+        let budget = (options.max_vertices - total).min(2 * total + 1000);
+        let parameters = refinement(self.step * scale, options.min_angle_deg, budget);
+        // spade asserts on a circumcentre that rounding put out of range. That
+        // has not been seen, but must not take the caller down: the mesh then
+        // stays as it was, valid but not refined.
+        let refined = std::panic::catch_unwind(|| {
+            let mut cdt = plain;
+            cdt.refine(parameters);
+            cdt
+        });
+        let mut cdt = refined.or_else(|_| load())?;
+        let inner_edges = add_lines(&mut cdt, self.on_lines)?;
+        let given = Given {
+            points,
+            segments,
+            rings,
+            core,
+            rim_start,
+            rim_edges: &rim_edges,
+        };
+        let Some(mesh) = extract(&cdt, scale.recip(), &given, &inner_edges)? else {
+            return Ok(None);
+        };
+        let expected: f64 = rings.iter().map(Ring::area).sum();
+        let got = mesh.area();
+        if (got - expected).abs() > 1e-7 * expected.abs() + 1e-12 * frame.size * frame.size {
+            return Err(misplaced(rings, frame, expected, got));
+        }
+        Ok(Some(mesh))
+    }
 }
 
 /// Values so small that spade refuses them are zero.
@@ -131,16 +230,71 @@ fn refinement(unit: f64, min_angle_deg: f64, budget: usize) -> RefinementParamet
         .with_max_additional_vertices(budget)
 }
 
-/// Reads the triangles inside the rings out of the triangulation.
+/// Adds the segments of constraint lines; gives for each undirected edge the
+/// line it lies on, or `u32::MAX`. An empty list stands for no lines at all.
+fn add_lines(cdt: &mut Cdt, on_lines: &[Segment]) -> Result<Vec<u32>, FieldError> {
+    let mut added = Vec::with_capacity(on_lines.len());
+    for segment in on_lines {
+        let [from, to] =
+            [segment.from, segment.to].map(|v| FixedVertexHandle::from_index(v as usize));
+        let edges = cdt.try_add_constraint(from, to);
+        if edges.is_empty() {
+            return Err(FieldError::BadLine {
+                line: (segment.ring & !LINE) as usize,
+                why: "comes too near to the boundary or to another line to be told from it".into(),
+            });
+        }
+        added.push((edges, segment.ring & !LINE));
+    }
+    if added.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut line_of = vec![u32::MAX; cdt.num_undirected_edges()];
+    for (edges, line) in added {
+        for edge in edges {
+            line_of[edge.as_undirected().index()] = line;
+        }
+    }
+    Ok(line_of)
+}
+
+/// What the triangulation was made from.
+struct Given<'a> {
+    points: &'a [V2],
+    segments: &'a [Segment],
+    rings: &'a [Ring],
+    core: &'a Core,
+    /// Index of the first vertex on the core's rim.
+    rim_start: usize,
+    rim_edges: &'a [(u32, u32, u32, u32)],
+}
+
+impl Given<'_> {
+    /// Position among the rim's edges of the one between two vertices, the
+    /// core on its right.
+    fn rim_edge(&self, from: usize, to: usize) -> Option<usize> {
+        let on_rim = |v: usize| {
+            let v = v.checked_sub(self.rim_start)?;
+            (v < self.core.rim).then_some(v as u32)
+        };
+        let key = (on_rim(to)?, on_rim(from)?);
+        self.rim_edges
+            .binary_search_by_key(&key, |e| (e.0, e.1))
+            .ok()
+    }
+}
+
+/// Reads the triangles inside the rings out of the triangulation, and puts
+/// the core in; `None` if an edge of its rim is missing.
 fn extract(
     cdt: &Cdt,
     scale: f64,
-    given: &[V2],
-    known: usize,
-    segments: &[Segment],
-    rings: &[Ring],
-) -> Result<Mesh, FieldError> {
-    let inside = inner_faces(cdt);
+    given: &Given<'_>,
+    line_of: &[u32],
+) -> Result<Option<Mesh>, FieldError> {
+    let known = given.points.len();
+    let is_line = |edge: usize| line_of.get(edge).is_some_and(|&line| line != u32::MAX);
+    let inside = inner_faces(cdt, is_line);
     let mut number = vec![u32::MAX; cdt.num_all_faces()];
     let mut vertex = vec![u32::MAX; cdt.num_vertices()];
     let mut original = Vec::new();
@@ -149,6 +303,7 @@ fn extract(
         triangles: Vec::new(),
         neighbours: Vec::new(),
         borders: Vec::new(),
+        line_edges: Vec::new(),
     };
     for face in cdt.inner_faces().filter(|face| inside[face.index()]) {
         number[face.index()] = mesh.triangles.len() as u32;
@@ -170,22 +325,41 @@ fn extract(
         original.push(v.index());
         // Ring points as given, to the bit.
         mesh.points.push(if v.index() < known {
-            given[v.index()]
+            given.points[v.index()]
         } else {
             V2::new(p.x, p.y) * scale
         });
     }
+    let band = mesh.triangles.len() as u32;
+    let mut core_neighbours = given.core.neighbours.clone();
+    core_neighbours
+        .iter_mut()
+        .flatten()
+        .filter(|t| **t != NONE)
+        .for_each(|t| *t += band);
+    let mut rim_met = 0;
     for face in cdt.inner_faces().filter(|face| inside[face.index()]) {
         let mut neighbours = [u32::MAX; 3];
         for (k, edge) in face.adjacent_edges().into_iter().enumerate() {
             let across = edge.rev().face();
             neighbours[k] = match across.as_inner() {
                 Some(inner)
-                    if inside[inner.index()] && !edge.as_undirected().is_constraint_edge() =>
+                    if inside[inner.index()]
+                        && (!edge.as_undirected().is_constraint_edge()
+                            || is_line(edge.as_undirected().index())) =>
                 {
                     number[inner.index()]
                 }
                 _ => {
+                    let ends = [edge.from(), edge.to()].map(|v| v.index());
+                    if let Some(rim) = given.rim_edge(ends[0], ends[1]) {
+                        let (_, _, triangle, side) = given.rim_edges[rim];
+                        core_neighbours[triangle as usize][side as usize] =
+                            mesh.neighbours.len() as u32;
+                        rim_met += 1;
+                        neighbours[k] = band + triangle;
+                        continue;
+                    }
                     mesh.borders.push(Border {
                         from: vertex[edge.from().index()],
                         to: vertex[edge.to().index()],
@@ -203,21 +377,48 @@ fn extract(
         debug_assert!((0..3).all(|k| edges[k].from() == triangle[k]));
         mesh.neighbours.push(neighbours);
     }
+    if rim_met != given.rim_edges.len() {
+        return Ok(None);
+    }
     for triangle in &mut mesh.triangles {
         *triangle = triangle.map(|v| vertex[v as usize]);
     }
+    let within = mesh.points.len() as u32;
+    let rim = given.core.rim as u32;
+    mesh.points.extend(&given.core.points[given.core.rim..]);
+    let core_triangles = given.core.triangles.iter().map(|triangle| {
+        triangle.map(|v| {
+            if v < rim {
+                vertex[given.rim_start + v as usize]
+            } else {
+                within + v - rim
+            }
+        })
+    });
+    mesh.triangles.extend(core_triangles);
+    mesh.neighbours.extend(core_neighbours);
     if mesh.triangles.is_empty() {
         return Err(FieldError::MeshFailed {
             what: "no triangle lies inside the polygon".into(),
         });
     }
-    label(&mut mesh, &original, known, segments, rings);
-    Ok(mesh)
+    label(&mut mesh, &original, known, given.segments, given.rings);
+    for (edge, &line) in cdt.undirected_edges().zip(line_of) {
+        let [from, to] = edge.vertices().map(|v| vertex[v.index()]);
+        // Across a hole that is thinner than points are told apart, a line
+        // may have an edge outside.
+        let sides = [edge.as_directed(), edge.as_directed().rev()];
+        if line != u32::MAX && sides.iter().any(|side| inside[side.face().index()]) {
+            mesh.line_edges.push((from, to, line));
+        }
+    }
+    mesh.line_edges.sort_unstable_by_key(|e| (e.2, e.0, e.1));
+    Ok(Some(mesh))
 }
 
 /// Which faces lie inside, by the parity of constraint edges crossed on the
-/// way in from the outer face.
-fn inner_faces(cdt: &Cdt) -> Vec<bool> {
+/// way in from the outer face; those on constraint lines do not count.
+fn inner_faces(cdt: &Cdt, is_line: impl Fn(usize) -> bool) -> Vec<bool> {
     let mut depth = vec![u32::MAX; cdt.num_all_faces()];
     // Breadth first by depth: faces behind a constraint edge wait a round.
     let mut now = vec![cdt.outer_face().fix()];
@@ -237,7 +438,8 @@ fn inner_faces(cdt: &Cdt) -> Vec<bool> {
                 if depth[across.index()] <= level {
                     continue;
                 }
-                if edge.as_undirected().is_constraint_edge() {
+                let undirected = edge.as_undirected();
+                if undirected.is_constraint_edge() && !is_line(undirected.index()) {
                     later.push(across.fix());
                 } else {
                     depth[across.index()] = level;

@@ -8,6 +8,7 @@
 //! colour, so that a plan of 1500 parcels stays well under a megabyte.
 
 mod canvas;
+mod field;
 mod font;
 mod map;
 mod palette;
@@ -20,6 +21,7 @@ use crate::metrics::metrics;
 use crate::site::Site;
 
 use canvas::{escaped, Canvas, Transform};
+pub use field::field_svg;
 
 /// How a plan is drawn.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use urban_layout::field::FieldOptions;
 use urban_layout::site::Units;
 use urban_layout::{Error, FieldKind, PlanOptions, Result, Site};
 
@@ -20,6 +21,8 @@ pub(crate) enum Verb {
     Generate(Generate),
     /// Prove a layout against its site; exit status 3 if a law fails.
     Check(Check),
+    /// Design a cross field on a site: writes field.svg and field.json.
+    Field(FieldJob),
 }
 
 #[derive(Debug, Args)]
@@ -80,6 +83,32 @@ pub(crate) struct Check {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct FieldJob {
+    /// The site, a GeoJSON file.
+    pub(crate) site: PathBuf,
+    /// Folder for the results; made if it is not there.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// The design.
+    #[arg(long, value_enum, default_value_t = Field::Distance)]
+    pub(crate) field: Field,
+    /// Wanted edge length of the mesh, metres; 0 for a fortieth of the square root of the area.
+    #[arg(long, default_value_t = 0.0, value_name = "M")]
+    pub(crate) edge_length: f64,
+    /// How strongly a boundary field keeps to the boundary.
+    #[arg(long, default_value_t = FieldOptions::default().omega)]
+    pub(crate) omega: f64,
+    /// Rounds of smoothing; 1 for a distance field and 0 for others if not given.
+    #[arg(long)]
+    pub(crate) smoothing: Option<usize>,
+    /// Seed of all random choices.
+    #[arg(long, default_value_t = 0)]
+    pub(crate) seed: u64,
+    #[command(flatten)]
+    pub(crate) common: Common,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct Common {
     /// Unit of the site's coordinates.
     #[arg(long, value_enum, default_value_t = UnitWord::Auto)]
@@ -129,6 +158,18 @@ impl Common {
     pub(crate) fn read(&self, path: &Path) -> Result<Site> {
         let text = std::fs::read_to_string(path).map_err(|e| Error::reading(path, e))?;
         Site::from_geojson(&text, self.units.into())
+    }
+}
+
+impl FieldJob {
+    pub(crate) fn options(&self) -> FieldOptions {
+        FieldOptions {
+            kind: self.field.into(),
+            edge_length: self.edge_length,
+            omega: self.omega,
+            smoothing: self.smoothing,
+            seed: self.seed,
+        }
     }
 }
 

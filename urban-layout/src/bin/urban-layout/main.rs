@@ -3,6 +3,7 @@
 mod args;
 mod bar;
 mod check;
+mod field;
 mod generate;
 
 use std::process::ExitCode;
@@ -25,6 +26,7 @@ fn main() -> ExitCode {
     let done = match &arguments.verb {
         Verb::Generate(job) => generate::run(job),
         Verb::Check(job) => check::run(job),
+        Verb::Field(job) => field::run(job),
     };
     match done {
         Ok(code) => ExitCode::from(code),

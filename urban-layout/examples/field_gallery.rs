@@ -1,0 +1,76 @@
+//! Draws a distance, a boundary and a harmonic field of each site and prints
+//! what they are compared by:
+//! `cargo run --release --example field_gallery -- SITES_FOLDER OUT_FOLDER`.
+//!
+//! Writes `SITE-FIELD.svg`, land shaded by divergence under dense streamlines,
+//! and a field that this release has not is said to be missing.
+
+use std::path::{Path, PathBuf};
+
+use crossfield::{compare, Field};
+use urban_layout::field::{FieldOptions, FieldStudy};
+use urban_layout::io::svg::field_svg;
+use urban_layout::io::write::write_all_or_nothing;
+use urban_layout::{FieldKind, Site};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut words = std::env::args_os().skip(1).map(PathBuf::from);
+    let (Some(sites), Some(out)) = (words.next(), words.next()) else {
+        return Err("usage: field_gallery SITES_FOLDER OUT_FOLDER".into());
+    };
+    let mut paths: Vec<PathBuf> = std::fs::read_dir(&sites)?
+        .map(|entry| entry.map(|e| e.path()))
+        .collect::<Result<_, _>>()?;
+    paths.retain(|path| path.extension().is_some_and(|e| e == "geojson"));
+    paths.sort();
+    for path in paths {
+        draw(&path, &out)?;
+    }
+    Ok(())
+}
+
+fn draw(path: &Path, out: &Path) -> Result<(), Box<dyn std::error::Error>> {
+    let site = Site::read(path)?;
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    println!("{stem}");
+    let mut files = Vec::new();
+    let mut fields: Vec<(&str, Field)> = Vec::new();
+    for kind in [
+        FieldKind::Distance,
+        FieldKind::Boundary,
+        FieldKind::Harmonic,
+    ] {
+        let options = FieldOptions {
+            kind,
+            ..FieldOptions::default()
+        };
+        match FieldStudy::new(&site, &options) {
+            Ok(study) => {
+                let file = out.join(format!("{stem}-{}.svg", kind.as_str()));
+                files.push((file, field_svg(&study, &site).into_bytes()));
+                if let Some(field) = study.fields.into_iter().next() {
+                    fields.push((kind.as_str(), field));
+                }
+            }
+            Err(error) => println!("  {}: {error}", kind.as_str()),
+        }
+    }
+    // Equal options give equal meshes; a comparison wants the very same one.
+    if let Some((_, first)) = fields.first() {
+        let domain = first.domain().clone();
+        let shared = fields
+            .iter()
+            .map(|(name, field)| {
+                let vectors = (0..domain.vertex_count()).map(|v| field.representative(v));
+                Ok((
+                    *name,
+                    Field::from_representatives(&domain, vectors.collect())?,
+                ))
+            })
+            .collect::<Result<Vec<_>, crossfield::FieldError>>()?;
+        let shared: Vec<(&str, &Field)> = shared.iter().map(|(name, f)| (*name, f)).collect();
+        println!("{}", compare(&shared)?);
+    }
+    write_all_or_nothing(&files)?;
+    Ok(())
+}

@@ -1,0 +1,44 @@
+//! `urban-layout field`: the cross field of a site, drawn and measured.
+
+use urban_layout::field::FieldStudy;
+use urban_layout::io;
+use urban_layout::{Error, Result};
+
+use crate::args::FieldJob;
+
+pub(crate) fn run(job: &FieldJob) -> Result<u8> {
+    let site = job.common.read(&job.site)?;
+    for warning in &site.warnings {
+        eprintln!("warning: {warning}");
+    }
+    if !(site.roads.is_empty() && site.elements.is_empty()) {
+        eprintln!("warning: given roads and key elements are not part of the field's domain");
+    }
+    let study = FieldStudy::new(&site, &job.options())?;
+    let figures = study.to_json(&site);
+    let json = serde_json::to_string_pretty(&figures).map_err(|e| Error::stage("field", e))? + "\n";
+    io::write::write_all_or_nothing(&[
+        (
+            job.out.join("field.svg"),
+            io::svg::field_svg(&study, &site).into_bytes(),
+        ),
+        (job.out.join("field.json"), json.into_bytes()),
+    ])?;
+    if job.common.json {
+        println!("{figures}");
+    } else {
+        println!(
+            "{} vertices; {} singularities, indices {} + {} corners = 4 x {}; mean |div| {:.2e} per metre; mesh {:.3} s, field {:.3} s",
+            figures["vertices"],
+            study.singularities().len(),
+            figures["index_sum"],
+            figures["boundary_quarter_turns"],
+            figures["euler"],
+            figures["mean_abs_divergence"].as_f64().unwrap_or(0.0),
+            study.mesh_seconds,
+            study.field_seconds,
+        );
+        println!("written to {}", job.out.display());
+    }
+    Ok(0)
+}
