@@ -21,6 +21,8 @@ pub use domain::{Corner, Cursor, Domain, DomainOptions, Exit};
 pub use error::FieldError;
 pub use field::{Field, FieldDesign};
 pub use geo_types;
-pub use harmonic::HarmonicField;
+pub use harmonic::{
+    Alignment, BoundaryPiece, Elements, GalleryEntry, HarmonicBasis, HarmonicField,
+};
 pub use operators::Laplacian;
 pub use singularity::{IndexCheck, Singularity};

@@ -59,13 +59,15 @@ impl IndexCheck {
 }
 
 impl Field {
-    /// Quarter index of one triangle, from -1 to 1.
+    /// Quarter index of one triangle: -1, 0 or 1 where representation vectors
+    /// are interpolated, that times their power where roots are.
     pub(crate) fn triangle_index(&self, triangle: usize) -> i32 {
-        let phases = self.domain().triangles()[triangle].map(|v| phase(self.vectors()[v as usize]));
+        let (vectors, power) = self.roots();
+        let phases = self.domain().triangles()[triangle].map(|v| phase(vectors[v as usize]));
         let turn: f64 = (0..3)
             .map(|k| wrapped(phases[k], phases[(k + 1) % 3]))
             .sum();
-        (turn / (4.0 * QUARTER)).round() as i32
+        (turn / (4.0 * QUARTER)).round() as i32 * i32::from(power)
     }
 
     /// The singularities, in the order of their first triangle.
@@ -136,8 +138,8 @@ impl Field {
     fn zero(&self, triangle: usize) -> V2 {
         let vertices = self.domain().triangles()[triangle].map(|v| v as usize);
         let points = vertices.map(|v| self.domain().inner.mesh.points[v]);
-        let [a, b, c] = vertices.map(|v| self.vectors()[v]);
-        // D = 0 at barycentric coordinates proportional to these.
+        let [a, b, c] = vertices.map(|v| self.roots().0[v]);
+        // They vanish at barycentric coordinates proportional to these.
         let shares = [wedge(b, c), wedge(c, a), wedge(a, b)];
         let total: f64 = shares.iter().sum();
         let middle = (points[0] + points[1] + points[2]) / 3.0;
@@ -164,18 +166,18 @@ impl Field {
     /// antisymmetric bit for bit.
     #[must_use]
     pub fn boundary_winding(&self) -> i32 {
-        let crosses = self.vectors();
+        let (vectors, power) = self.roots();
         let borders = &self.domain().inner.mesh.borders;
         let turn: f64 = borders
             .iter()
             .map(|b| {
                 wrapped(
-                    phase(crosses[b.from as usize]),
-                    phase(crosses[b.to as usize]),
+                    phase(vectors[b.from as usize]),
+                    phase(vectors[b.to as usize]),
                 )
             })
             .sum();
-        (turn / (4.0 * QUARTER)).round() as i32
+        (turn / (4.0 * QUARTER)).round() as i32 * i32::from(power)
     }
 
     /// All numbers of the two index laws at once.

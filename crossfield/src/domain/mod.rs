@@ -14,7 +14,7 @@ use nalgebra::Rotation2;
 use crate::footpoint::EdgeTree;
 use crate::plane::{coord, vector, V2};
 use crate::FieldError;
-pub(crate) use mesh::Border;
+pub(crate) use mesh::{Border, BORDER};
 pub(crate) use ring::Ring;
 
 /// How a domain is triangulated.
