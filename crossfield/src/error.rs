@@ -87,9 +87,9 @@ pub enum FieldError {
     },
     /// The boundary has too few pieces for a harmonic field.
     #[error(
-        "no harmonic field but a linear one follows a boundary of {pieces} smooth pieces \
-         (a triangle has none); use a distance field or a boundary field, \
-         or lower `max_turn_deg` if the boundary is bent"
+        "no harmonic field follows a boundary of {pieces} smooth pieces, such as a triangle's; \
+         use a distance field or a boundary field (or lower an H-field's `max_turn_deg` \
+         if the boundary is bent)"
     )]
     NoHarmonicField {
         /// Number of smooth pieces.

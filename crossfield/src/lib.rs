@@ -22,7 +22,7 @@ pub use error::FieldError;
 pub use field::{Field, FieldDesign};
 pub use geo_types;
 pub use harmonic::{
-    Alignment, BoundaryPiece, Elements, GalleryEntry, HarmonicBasis, HarmonicField,
+    Alignment, BoundaryPiece, Elements, GalleryEntry, GradientField, HarmonicBasis, HarmonicField,
 };
 pub use operators::Laplacian;
 pub use singularity::{IndexCheck, Singularity};

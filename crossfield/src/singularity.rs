@@ -135,7 +135,7 @@ impl Field {
     }
 
     /// Where the interpolated D vanishes in a singular triangle.
-    fn zero(&self, triangle: usize) -> V2 {
+    pub(crate) fn zero(&self, triangle: usize) -> V2 {
         let vertices = self.domain().triangles()[triangle].map(|v| v as usize);
         let points = vertices.map(|v| self.domain().inner.mesh.points[v]);
         let [a, b, c] = vertices.map(|v| self.roots().0[v]);

@@ -272,4 +272,148 @@ fn bent(domain: &Domain, pieces: &Pieces) -> Vec<u32> {
 
 /// Corners this near to a right angle count as one, radians: H turns by a
 /// quarter of a degree around them.
-const RIGHT: f64 = 0.005;
+pub(crate) const RIGHT: f64 = 0.005;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cross::Cross;
+    use crate::harmonic::elements::Elements;
+    use crate::harmonic::family::C;
+    use crate::DomainOptions;
+    use geo_types::polygon;
+
+    fn quadrilateral(edge_length: f64) -> Domain {
+        let shape = polygon![(x: -0.3, y: -0.2), (x: 0.9, y: -0.4), (x: 1.1, y: 0.5),
+            (x: 0.2, y: 0.8)];
+        let options = DomainOptions {
+            edge_length,
+            ..DomainOptions::default()
+        };
+        Domain::new(&shape, &options).expect("valid")
+    }
+
+    /// Largest and mean error of the trace-free Hessian inside, for the
+    /// solution of the Neumann problem of z = Re exp(3 w).
+    fn errors(edge_length: f64, elements: Elements) -> (f64, f64) {
+        let domain = quadrilateral(edge_length);
+        let mesh = &domain.inner.mesh;
+        let nodes = Nodes::new(&domain, elements);
+        let slope = |p: V2| (C::new(p.x, p.y) * 3.0).exp() * 3.0;
+        let mut loads = vec![vec![0.0; nodes.count()]];
+        for (k, border) in mesh.borders.iter().enumerate() {
+            let [a, b] = [border.from, border.to].map(|v| mesh.points[v as usize]);
+            let normal = -crate::plane::left(b - a);
+            let ends: Vec<usize> = nodes.border_shares(k).map(|(node, _)| node).collect();
+            // Gauss's rule with three points.
+            for (t, weight) in [(-(0.6_f64.sqrt()), 5.0 / 18.0), (0.0, 4.0 / 9.0), (0.6_f64.sqrt(), 5.0 / 18.0)] {
+                let t = (1.0 + t) / 2.0;
+                let f = slope(a + (b - a) * t);
+                let flux = weight * (f * C::new(normal.x, normal.y)).re;
+                let hats = match elements {
+                    Elements::Quadratic => vec![
+                        (1.0 - t) * (1.0 - 2.0 * t),
+                        t * (2.0 * t - 1.0),
+                        4.0 * t * (1.0 - t),
+                    ],
+                    Elements::Linear => vec![1.0 - t, t],
+                };
+                for (&node, hat) in ends.iter().zip(hats) {
+                    loads[0][node] += flux * hat;
+                }
+            }
+        }
+        // Balanced but for the rule's error.
+        let excess: f64 = loads[0].iter().sum::<f64>() / nodes.count() as f64;
+        loads[0].iter_mut().for_each(|load| *load -= excess);
+        nodes.neumann(&mut loads).expect("definite");
+        let pieces = Pieces::cut(&domain, 0.3, 10).expect("four");
+        let conditions = vec![Condition::Value; 4];
+        let recovery = Recovery::new(&domain, &nodes, &pieces, conditions, Derivative::Hessian);
+        let (mut max, mut sum, mut count) = (0.0_f64, 0.0, 0.0);
+        let mut patch = Patch::default();
+        for v in domain.inner_vertices() {
+            let stencil = recovery.stencil(v, &mut patch);
+            let got = stencil
+                .nodes
+                .iter()
+                .fold(V2::zeros(), |sum, &(node, w)| sum + w * loads[0][node as usize]);
+            let wanted = slope(mesh.points[v]) * 3.0;
+            let error = (got - V2::new(wanted.re, -wanted.im)).norm() / wanted.norm();
+            max = max.max(error);
+            sum += error;
+            count += 1.0;
+        }
+        (max, sum / count)
+    }
+
+    /// Second derivatives inside, against the closed form, as the mesh is
+    /// halved four times. The mesh is a lattice but for a belt along the
+    /// boundary: quadratic elements reach the second order on average and the
+    /// first at the worst vertex (the belt), linear ones stall.
+    #[test]
+    fn hessians_converge_with_quadratic_elements() {
+        println!("edge, quadratic max and mean, linear max and mean");
+        let mut table = Vec::new();
+        for halvings in 0..5 {
+            let edge = 0.1 / f64::from(1 << halvings);
+            let quadratic = errors(edge, Elements::Quadratic);
+            let linear = errors(edge, Elements::Linear);
+            println!(
+                "{edge:.5}: {:.2e} {:.2e} {:.2e} {:.2e}",
+                quadratic.0, quadratic.1, linear.0, linear.1
+            );
+            table.push((quadratic, linear));
+        }
+        let order = |f: fn(&((f64, f64), (f64, f64))) -> f64| (f(&table[0]) / f(&table[4])).log2() / 4.0;
+        let [max, mean] = [order(|t| t.0 .0), order(|t| t.0 .1)];
+        println!("orders: {max:.2} {mean:.2}, linear {:.2} {:.2}", order(|t| t.1 .0), order(|t| t.1 .1));
+        assert!(max > 0.9 && mean > 1.8, "{max} {mean}");
+        assert!(order(|t| t.1 .0) < 0.5, "linear elements do not converge");
+    }
+
+    /// A mirror image has the mirrored crosses, for the mirrored fluxes.
+    #[test]
+    fn a_mirror_image_has_mirrored_fields() {
+        let shape = polygon![
+            exterior: [(x: 0., y: 0.), (x: 90., y: 10.), (x: 99., y: 30.), (x: 97., y: 50.),
+                (x: 40., y: 85.), (x: -5., y: 50.)],
+            interiors: [[(x: 30., y: 30.), (x: 50., y: 32.), (x: 40., y: 45.)]],
+        ];
+        let here = Domain::new(&shape, &DomainOptions::default()).expect("valid");
+        let there = here.mirrored();
+        let design = HarmonicField::default();
+        let cut = |domain| Pieces::cut(domain, design.max_turn_deg.to_radians(), 200).expect("few");
+        let (own, other) = (cut(&here), cut(&there));
+        let fluxes: Vec<f64> = (0..own.len()).map(|k| (k as f64 * 1.7).sin()).collect();
+        let mut image = vec![f64::NAN; other.len()];
+        for (a, b) in here.inner.mesh.borders.iter().zip(&there.inner.mesh.borders) {
+            image[other.of(b.ring, b.edge)] = fluxes[own.of(a.ring, a.edge)];
+        }
+        let [a, b] = [(&here, fluxes), (&there, image)].map(|(domain, fluxes)| {
+            let basis = design.basis(domain).expect("a basis");
+            let field = basis.field(&fluxes).expect("fluxes");
+            let energy = basis.energy(&field).expect("its own");
+            (field, energy)
+        });
+        assert!((a.1 / b.1 - 1.0).abs() < 1e-7);
+        for (p, q) in a.0.vectors().iter().zip(b.0.vectors()) {
+            let [p, q] = [p, q].map(|d| Cross::from_vector(*d).expect("regular"));
+            assert!(Cross::from_angle(-p.angle()).deviation(&q) < 1e-7);
+        }
+    }
+
+    /// What is left out: corners but convex right angles, and cuts of bent
+    /// pieces, none beyond a quarter of a piece.
+    #[test]
+    fn discs_lie_at_singular_ends() {
+        let shape = polygon![(x: 0., y: 0.), (x: 60., y: 0.), (x: 60., y: 20.), (x: 58., y: 20.),
+            (x: 58., y: 50.), (x: 0., y: 50.)];
+        let domain = Domain::new(&shape, &DomainOptions::default()).expect("valid");
+        let pieces = Pieces::cut(&domain, 0.3, 10).expect("six");
+        let discs = singular_ends(&domain, &pieces, 3.0);
+        assert_eq!(discs.len(), 1);
+        let at = V2::new(58.0, 20.0) - domain.inner.frame.origin;
+        assert_eq!((*discs[0].geom(), discs[0].data), ([at.x, at.y], 0.5));
+    }
+}

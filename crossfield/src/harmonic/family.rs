@@ -135,8 +135,7 @@ impl Family {
         let inner = &*self.domain.inner;
         let (roots, _) = field.roots();
         let mut discs = self.discs.clone();
-        let zeros = field.singularities();
-        discs.extend(zeros.iter().map(|s| disc(self.domain.local(s.at), self.radius)));
+        discs.extend(self.zeros(field).into_iter().map(|p| disc(p, self.radius)));
         let discs = RTree::bulk_load(discs);
         let inside = |p: V2| within(&discs, p, self.radius);
         let fold = self.kind.fold();
@@ -167,6 +166,32 @@ impl Family {
             }
         }
         sums
+    }
+
+    /// Where a field of this family is singular, inside and on the boundary.
+    ///
+    /// On a straight side the field is the real function |F| times a constant
+    /// cross, whose zeros may lie on the side itself. Whether the triangle
+    /// there counts as singular is then a matter of rounding; a root that
+    /// turns over along a border is not.
+    fn zeros(&self, field: &Field) -> Vec<V2> {
+        let mesh = &self.domain.inner.mesh;
+        let (roots, _) = field.roots();
+        let mut zeros: Vec<V2> = (0..mesh.triangles.len())
+            .filter(|&t| field.triangle_index(t) != 0)
+            .map(|t| field.zero(t))
+            .collect();
+        for border in &mesh.borders {
+            let ends = [border.from as usize, border.to as usize];
+            let [r, s] = ends.map(|v| roots[v]);
+            if r.dot(&s) < 0.0 {
+                // The point of the border at which the root is shortest.
+                let t = r.dot(&(r - s)) / (r - s).norm_squared();
+                let [a, b] = ends.map(|v| mesh.points[v]);
+                zeros.push(a + (b - a) * t);
+            }
+        }
+        zeros
     }
 
     /// How a field of this family follows the boundary.

@@ -9,6 +9,8 @@
 //! `Im(F t^2)^2 / |F|^2` with the unit tangent t, averaged over the whole
 //! boundary: between 0 and 1.
 
+use nalgebra::DMatrix;
+
 use super::family::{Family, C};
 
 /// The misfit at the borders of bent pieces.
@@ -53,6 +55,16 @@ impl Misfit {
             }
         }
         misfit
+    }
+
+    /// The charge times |F|^2, for |F| of even size, as a quadratic form.
+    pub(crate) fn form(&self, dimension: usize) -> DMatrix<f64> {
+        let count = self.weights.len();
+        let off = DMatrix::from_fn(count, dimension, |s, j| {
+            let f = C::new(self.parts[0][j * count + s], self.parts[1][j * count + s]);
+            (self.normals[s].conj() * f).re * self.weights[s].sqrt()
+        });
+        off.tr_mul(&off)
     }
 
     /// The charge for a combination; its slope is added to `gradient`.

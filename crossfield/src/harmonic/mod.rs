@@ -19,16 +19,19 @@ mod basis;
 mod elements;
 mod family;
 mod gallery;
+mod gradient;
 mod misfit;
 mod objective;
 mod pieces;
 mod recovery;
 mod search;
+mod sides;
 
 pub use basis::HarmonicBasis;
 pub use elements::Elements;
 pub use family::Alignment;
 pub use gallery::GalleryEntry;
+pub use gradient::GradientField;
 pub use pieces::BoundaryPiece;
 
 use crate::domain::Domain;
@@ -255,6 +258,7 @@ impl FieldDesign for HarmonicField {
     /// As [`HarmonicField::basis`]; and [`FieldError::BadOption`] if the
     /// gallery has fewer entries than [`entry`](Self::entry) asks for.
     fn design(&self, domain: &Domain) -> Result<Field, FieldError> {
+        self.check()?;
         if self.entry >= self.entries {
             return Err(FieldError::option(
                 "entry",

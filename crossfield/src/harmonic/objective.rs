@@ -184,11 +184,13 @@ impl Objective {
         energy + self.misfit.add(y, gradient)
     }
 
-    /// The integrals of |F|^2 and of |G|^2 as quadratic forms in y.
+    /// Quadratic forms in y whose quotient is the energy for |F| of even
+    /// size: the integral of |F|^2, and what the two arms and the misfit add
+    /// up to times that.
     pub(crate) fn forms(&self) -> [DMatrix<f64>; 2] {
         let count = self.areas.len();
         let mut weighted = vec![0.0; count];
-        [[0, 1], [2, 3]].map(|parts| {
+        let [mass, mut stiffness] = [[0, 1], [2, 3]].map(|parts| {
             let mut form = DMatrix::zeros(self.dimension, self.dimension);
             for k in parts {
                 for i in 0..self.dimension {
@@ -203,7 +205,12 @@ impl Objective {
             }
             form.fill_upper_triangle_with_lower_triangle();
             form
-        })
+        });
+        stiffness *= self.scale;
+        let total: f64 = self.areas.iter().sum();
+        stiffness += self.misfit.form(self.dimension);
+        // The mean of |F|^2 is its integral over the area.
+        [mass / total.max(f64::MIN_POSITIVE), stiffness]
     }
 
     /// Mean angle between the crosses of two combinations, by area, radians:

@@ -107,7 +107,8 @@ fn runs(ring: &Ring, max_turn: f64) -> Vec<Vec<usize>> {
     // A ring without a corner is opened where it turns most.
     let cuts = if corners.is_empty() {
         let sharpest = (0..count).fold(0, |best, k| {
-            if ring.turn[k].abs() > ring.turn[best].abs() {
+            // Equal up to rounding: the first.
+            if ring.turn[k].abs() > ring.turn[best].abs() + 1e-9 {
                 k
             } else {
                 best
@@ -129,8 +130,8 @@ fn runs(ring: &Ring, max_turn: f64) -> Vec<Vec<usize>> {
 /// Halves a run until each part spans at most `max_turn`.
 ///
 /// The cut leaves the smaller spans on both sides; among equal cuts it is the
-/// one nearest to the middle. Walked backwards the run is cut alike, so that
-/// mirror images have mirrored pieces.
+/// one nearest to the middle, and the first of these. Walked backwards the run
+/// is cut alike but for that, so that mirror images have mirrored pieces.
 fn bisect(ring: &Ring, run: Vec<usize>, max_turn: f64, out: &mut Vec<Vec<usize>>) {
     let mut open = vec![run];
     while let Some(run) = open.pop() {
@@ -156,7 +157,7 @@ fn bisect(ring: &Ring, run: Vec<usize>, max_turn: f64, out: &mut Vec<Vec<usize>>
         let best = (2..count).fold(1, |best, k| {
             let ((a, off_a), (b, off_b)) = (cost(k), cost(best));
             // Equal up to rounding counts as equal.
-            let better = a < b - 1e-9 || (a <= b + 1e-9 && off_a < off_b);
+            let better = a < b - 1e-9 || (a <= b + 1e-9 && off_a < off_b - 1e-9);
             if better {
                 k
             } else {

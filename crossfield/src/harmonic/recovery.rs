@@ -291,7 +291,9 @@ impl<'a> Recovery<'a> {
             _ => {
                 for (piece, row) in fluxes.into_iter().zip(&rows[patch.nodes.len()..]) {
                     // Flux in units of the scaled patch.
-                    stencil.fluxes.push((piece as u32, weight(row) * radius));
+                    if self.conditions[piece] == Condition::Flux {
+                        stencil.fluxes.push((piece as u32, weight(row) * radius));
+                    }
                 }
             }
         }

@@ -25,10 +25,8 @@ use super::objective::{Objective, Scratch};
 pub(crate) struct Minimum {
     /// Coefficients in the search space, of unit length.
     pub(crate) y: Vec<f64>,
-    /// Sampled energy.
+    /// Sampled energy, with the charge for leaving the boundary.
     pub(crate) energy: f64,
-    /// Length of the gradient there.
-    pub(crate) slope: f64,
 }
 
 /// Pairs that the quasi-Newton method remembers.
@@ -247,11 +245,7 @@ fn descend(objective: &Objective, y: Vec<f64>, sign: f64, scratch: &mut Scratch)
             break;
         }
     }
-    Minimum {
-        slope: dot(&gradient, &gradient).sqrt(),
-        y,
-        energy,
-    }
+    Minimum { y, energy }
 }
 
 /// Minus the approximate inverse Hessian times the gradient (the two-loop
