@@ -202,7 +202,9 @@ impl Field {
             return sum / total;
         }
         // Short against its own terms, not absolutely: roots have any size.
-        let scale: f64 = (0..3).map(|k| vectors[vertices[k]].norm() * shares[k]).sum();
+        let scale: f64 = (0..3)
+            .map(|k| vectors[vertices[k]].norm() * shares[k])
+            .sum();
         if sum.norm() > SINGULAR * scale {
             raised(sum, power)
         } else {
@@ -226,7 +228,7 @@ impl Field {
 fn raised(v: V2, power: u8) -> V2 {
     // By its larger component first: no length may leave the range.
     let larger = v.amax();
-    if !(larger > 0.0) {
+    if larger == 0.0 {
         return v;
     }
     let mut unit = (v / larger).normalize();

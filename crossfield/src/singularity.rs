@@ -143,8 +143,12 @@ impl Field {
         let shares = [wedge(b, c), wedge(c, a), wedge(a, b)];
         let total: f64 = shares.iter().sum();
         let middle = (points[0] + points[1] + points[2]) / 3.0;
-        // Nearly opposite vectors leave the place open.
-        if total.abs() < 1e-12 || shares.iter().any(|s| s / total < -1e-9) {
+        // Nearly opposite vectors leave the place open; roots have any size.
+        let size = [a, b, c]
+            .map(|v| v.norm_squared())
+            .into_iter()
+            .fold(0.0, f64::max);
+        if total.abs() <= 1e-12 * size || shares.iter().any(|s| s / total < -1e-9) {
             return middle;
         }
         (0..3).fold(V2::zeros(), |sum, k| sum + points[k] * (shares[k] / total))
@@ -271,6 +275,26 @@ mod tests {
     use super::*;
     use crate::{Domain, DomainOptions};
     use geo_types::polygon;
+
+    /// Roots have any size: the zero of tiny ones was once put in the middle
+    /// of its triangle.
+    #[test]
+    fn the_place_of_a_zero_does_not_depend_on_the_size_of_the_roots() {
+        let shape = polygon![(x: -4., y: -4.), (x: 4., y: -4.), (x: 4., y: 4.), (x: -4., y: 4.)];
+        let domain = Domain::new(&shape, &DomainOptions::default()).expect("valid");
+        let centre = V2::new(0.37, -1.21);
+        for size in [1e-30, 1e-8, 1.0, 1e30] {
+            let points = &domain.inner.mesh.points;
+            let roots = points.iter().map(|p| (p - centre) * size).collect();
+            let field = Field::from_roots(&domain, roots, 2).expect("fits");
+            let found = field.singularities();
+            assert_eq!(found.len(), 1);
+            assert_eq!(found[0].quarter_index, 2);
+            let at = crate::plane::vector(found[0].at);
+            // Roots that are linear in the place are interpolated exactly.
+            assert!((at - centre).norm() < 1e-12);
+        }
+    }
 
     #[test]
     fn an_analytic_singularity_is_found_where_it_is() {

@@ -180,9 +180,17 @@ fn options_of_harmonic_fields_out_of_range_are_refused() {
         ("entries", |h, v| h.entries = v as usize, &[0.0]),
         ("entry", |h, v| h.entry = v as usize, &[1.0, 8.0]),
         ("diversity", |h, v| h.diversity = v, &[-0.1, 1.1, f64::NAN]),
-        ("max_turn_deg", |h, v| h.max_turn_deg = v, &[0.0, 91.0, f64::NAN]),
+        (
+            "max_turn_deg",
+            |h, v| h.max_turn_deg = v,
+            &[0.0, 91.0, f64::NAN],
+        ),
         ("max_pieces", |h, v| h.max_pieces = v as usize, &[0.0, 3.0]),
-        ("disc_radius", |h, v| h.disc_radius = v, &[-1.0, f64::INFINITY]),
+        (
+            "disc_radius",
+            |h, v| h.disc_radius = v,
+            &[-1.0, f64::INFINITY],
+        ),
         ("alignment", |h, v| h.alignment = v, &[-1.0, f64::NAN]),
     ];
     let domain = shapes::domain(&shape(&SQUARE), 1.0);
@@ -201,7 +209,9 @@ fn options_of_harmonic_fields_out_of_range_are_refused() {
     assert!(basis.field(&[1.0; 3]).is_err());
     assert!(basis.field(&[1.0, f64::NAN, 0.0, 0.0]).is_err());
     let elsewhere = shapes::domain(&shape(&SQUARE), 2.0);
-    let field = HarmonicField::default().design(&elsewhere).expect("a square");
+    let field = HarmonicField::default()
+        .design(&elsewhere)
+        .expect("a square");
     assert!(basis.energy(&field).is_err() && basis.alignment(&field).is_err());
 }
 

@@ -323,7 +323,11 @@ mod tests {
         let domain = Domain::new(&shape, &DomainOptions::default()).expect("valid");
         for elements in [Elements::Quadratic, Elements::Linear] {
             let nodes = Nodes::new(&domain, elements);
-            let fixed: Vec<bool> = nodes.points.iter().map(|p| p.x.abs() > 4.0 - 1e-9).collect();
+            let fixed: Vec<bool> = nodes
+                .points
+                .iter()
+                .map(|p| p.x.abs() > 4.0 - 1e-9)
+                .collect();
             let values: Vec<f64> = nodes.points.iter().map(|p| p.x.signum()).collect();
             let solved = nodes.mixed(&fixed, &[values]).expect("definite");
             for (p, z) in nodes.points.iter().zip(&solved[0]) {

@@ -7,9 +7,8 @@
 //! (a, b) = ((z_xx - z_yy) / 2, z_xy), or the gradient.
 
 use nalgebra::{Complex, DMatrix};
-use rstar::primitives::GeomWithData;
-use rstar::RTree;
 
+use super::discs::Discs;
 use crate::domain::Domain;
 use crate::field::Field;
 use crate::operators::gradient;
@@ -74,19 +73,11 @@ pub(crate) struct Family {
     /// Radius of the discs that the energy leaves out, metres.
     pub(crate) radius: f64,
     /// Discs on the boundary that it leaves out as well.
-    pub(crate) discs: Vec<Disc>,
+    pub(crate) discs: Discs,
     /// Borders where the search charges for leaving the boundary.
     pub(crate) charged: Vec<u32>,
     /// What it charges for a boundary that is left altogether.
     pub(crate) charge: f64,
-}
-
-/// A disc around a point.
-pub(crate) type Disc = GeomWithData<[f64; 2], f64>;
-
-/// A disc that the energy leaves out.
-pub(crate) fn disc(at: V2, radius: f64) -> Disc {
-    Disc::new([at.x, at.y], radius)
 }
 
 impl Family {
@@ -134,10 +125,7 @@ impl Family {
     pub(crate) fn energies(&self, field: &Field) -> [f64; 2] {
         let inner = &*self.domain.inner;
         let (roots, _) = field.roots();
-        let mut discs = self.discs.clone();
-        discs.extend(self.zeros(field).into_iter().map(|p| disc(p, self.radius)));
-        let discs = RTree::bulk_load(discs);
-        let inside = |p: V2| within(&discs, p, self.radius);
+        let discs = self.discs.with(self.zeros(field), self.radius);
         let fold = self.kind.fold();
         let mut sums = [0.0; 2];
         for triangle in &inner.mesh.triangles {
@@ -152,7 +140,7 @@ impl Family {
                 // functions.
                 let at = |x: [V2; 3]| (x[0] + x[1] + x[2] + x[k] * 3.0) / 6.0;
                 let root = at(values);
-                if root == V2::zeros() || inside(at(points)) {
+                if root == V2::zeros() || discs.contain(at(points)) {
                     continue;
                 }
                 let q = slope / C::new(root.x, -root.y);
@@ -177,8 +165,13 @@ impl Family {
     fn zeros(&self, field: &Field) -> Vec<V2> {
         let mesh = &self.domain.inner.mesh;
         let (roots, _) = field.roots();
+        // Three roots within a half-plane do not turn around.
+        let turns = |t: &usize| {
+            let [a, b, c] = mesh.triangles[*t].map(|v| roots[v as usize]);
+            a.dot(&b) < 0.0 || b.dot(&c) < 0.0 || c.dot(&a) < 0.0
+        };
         let mut zeros: Vec<V2> = (0..mesh.triangles.len())
-            .filter(|&t| field.triangle_index(t) != 0)
+            .filter(|t| turns(t) && field.triangle_index(*t) != 0)
             .map(|t| field.zero(t))
             .collect();
         for border in &mesh.borders {
@@ -198,7 +191,6 @@ impl Family {
     pub(crate) fn alignment(&self, field: &Field) -> Alignment {
         let inner = &*self.domain.inner;
         let (roots, power) = field.roots();
-        let discs = RTree::bulk_load(self.discs.clone());
         let (mut sum, mut squares, mut length, mut max) = (0.0, 0.0, 0.0, 0.0_f64);
         for border in &inner.mesh.borders {
             let ends = [border.from as usize, border.to as usize];
@@ -211,7 +203,7 @@ impl Family {
             sum += off * (b - a).norm();
             squares += (2.0 * off).sin().powi(2) * (b - a).norm();
             length += (b - a).norm();
-            if !within(&discs, (a + b) / 2.0, self.radius) {
+            if !self.discs.contain((a + b) / 2.0) {
                 max = max.max(off);
             }
         }
@@ -221,16 +213,6 @@ impl Family {
             misfit: squares / length,
         }
     }
-}
-
-/// Whether a point lies in one of the discs, none larger than `most`.
-pub(crate) fn within(discs: &RTree<Disc>, p: V2, most: f64) -> bool {
-    discs
-        .locate_within_distance([p.x, p.y], most * most)
-        .any(|disc| {
-            let [x, y] = *disc.geom();
-            (V2::new(x, y) - p).norm() < disc.data
-        })
 }
 
 /// F' in a triangle from the conjugates of F at its corners; `None` for a

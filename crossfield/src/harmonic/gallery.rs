@@ -64,7 +64,11 @@ impl Candidate {
         // Every vertex of a small mesh, one in some of a large one.
         let vectors = entry.field.vectors();
         let step = vectors.len().div_ceil(COMPARED);
-        let phases = vectors.iter().step_by(step).map(|d| d.y.atan2(d.x)).collect();
+        let phases = vectors
+            .iter()
+            .step_by(step)
+            .map(|d| d.y.atan2(d.x))
+            .collect();
         Self { entry, phases }
     }
 
@@ -179,7 +183,10 @@ pub(crate) fn ranked(mut candidates: Vec<Candidate>, wanted: &Wanted) -> Vec<Gal
         };
         placed.push(candidates.remove(best));
     }
-    placed.into_iter().map(|candidate| candidate.entry).collect()
+    placed
+        .into_iter()
+        .map(|candidate| candidate.entry)
+        .collect()
 }
 
 /// The gallery of one family.

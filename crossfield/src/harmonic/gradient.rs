@@ -8,8 +8,9 @@
 //! should be which; here the assignments are tried from the likeliest on, and
 //! for each the constants are searched as those of an H-field are.
 
+use super::discs::Discs;
 use super::elements::{Elements, Nodes};
-use super::family::{complement, disc, Disc, Family, Kind};
+use super::family::{complement, Family, Kind};
 use super::gallery::{candidates, distinct, ranked, Candidate, GalleryEntry, Wanted};
 use super::pieces::BoundaryPiece;
 use super::recovery::{Condition, Derivative, Patch, Recovery};
@@ -249,7 +250,13 @@ fn family(
             }
         })
         .collect();
-    let recovery = Recovery::new(domain, nodes, &sides.pieces, conditions, Derivative::Gradient);
+    let recovery = Recovery::new(
+        domain,
+        nodes,
+        &sides.pieces,
+        conditions,
+        Derivative::Gradient,
+    );
     let mut patch = Patch::default();
     let mut columns = vec![V2::zeros(); domain.vertex_count() * count];
     for v in 0..domain.vertex_count() {
@@ -279,7 +286,7 @@ fn family(
 /// Near a corner of inner angle alpha it behaves like r^(pi/alpha - 1)
 /// between sides of one kind, and like r^(pi/(2 alpha) - 1) between sides of
 /// two: only a convex right angle between two kinds is regular.
-fn singular_corners(domain: &Domain, sides: &Sides, crossed: &[bool], radius: f64) -> Vec<Disc> {
+fn singular_corners(domain: &Domain, sides: &Sides, crossed: &[bool], radius: f64) -> Discs {
     let mut discs = Vec::new();
     for (index, ring) in domain.inner.rings.iter().enumerate() {
         for k in (0..ring.len()).filter(|&k| ring.corner[k]) {
@@ -289,9 +296,9 @@ fn singular_corners(domain: &Domain, sides: &Sides, crossed: &[bool], radius: f6
             if !right || crossed[before] == crossed[after] {
                 let lengths = [before, after].map(|side| sides.pieces.all[side].length);
                 let most = lengths[0].min(lengths[1]) / 4.0;
-                discs.push(disc(ring.points[k], radius.min(most)));
+                discs.push((ring.points[k], radius.min(most)));
             }
         }
     }
-    discs
+    Discs::new(discs)
 }

@@ -41,7 +41,9 @@ impl Misfit {
             let [a, b] = [border.from, border.to].map(|v| inner.mesh.points[v as usize]);
             let along = inner.rings[border.ring as usize].direction(border.edge as usize);
             let back = C::new(along.x, -along.y);
-            misfit.weights.push(family.charge * (b - a).norm() / perimeter);
+            misfit
+                .weights
+                .push(family.charge * (b - a).norm() / perimeter);
             misfit.normals.push(C::new(0.0, 1.0) * back * back);
             for j in 0..dimension {
                 let mut sum = C::new(0.0, 0.0);

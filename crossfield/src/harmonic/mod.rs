@@ -16,6 +16,7 @@
 //! energy, which would otherwise grow without end under refinement.
 
 mod basis;
+mod discs;
 mod elements;
 mod family;
 mod gallery;

@@ -16,9 +16,8 @@
 //! section 4.2); differences are the oracle of the tests.
 
 use nalgebra::DMatrix;
-use rstar::RTree;
 
-use super::family::{holomorphic_slope, within, Family, C};
+use super::family::{holomorphic_slope, Family, C};
 use super::misfit::Misfit;
 use crate::plane::orient;
 
@@ -276,10 +275,9 @@ const SKIPPED: u32 = u32::MAX;
 fn clusters(family: &Family, most: usize) -> (Vec<u32>, usize) {
     const FREE: u32 = u32::MAX - 1;
     let mesh = &family.domain.inner.mesh;
-    let discs = RTree::bulk_load(family.discs.clone());
     let skipped = |triangle: &[u32; 3]| {
         let [a, b, c] = triangle.map(|v| mesh.points[v as usize]);
-        within(&discs, (a + b + c) / 3.0, family.radius)
+        family.discs.contain((a + b + c) / 3.0)
     };
     let mut cluster: Vec<u32> = mesh
         .triangles
@@ -335,7 +333,8 @@ fn clusters(family: &Family, most: usize) -> (Vec<u32>, usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::harmonic::family::{disc, Kind};
+    use crate::harmonic::discs::Discs;
+    use crate::harmonic::family::Kind;
     use crate::plane::V2;
     use crate::{Domain, DomainOptions};
     use geo_types::polygon;
@@ -346,7 +345,12 @@ mod tests {
         let domain = Domain::new(&shape, &DomainOptions::default()).expect("valid");
         let members = |p: &V2| {
             let w = C::new(p.x, p.y);
-            let all = [w * w * 0.1, w, C::new(1.0, 0.0), C::new(0.0, 1.0) * w.exp() * 0.05];
+            let all = [
+                w * w * 0.1,
+                w,
+                C::new(1.0, 0.0),
+                C::new(0.0, 1.0) * w.exp() * 0.05,
+            ];
             all.map(|f| V2::new(f.re, -f.im))
         };
         let columns = domain.inner.mesh.points.iter().flat_map(members).collect();
@@ -356,7 +360,7 @@ mod tests {
             columns,
             space: DMatrix::identity(4, 4),
             radius: 0.4,
-            discs: vec![disc(V2::new(4.0, 4.0), 0.4)],
+            discs: Discs::new(vec![(V2::new(4.0, 4.0), 0.4)]),
             charged: (5..50).collect(),
             charge: 3.0,
             domain,
@@ -384,7 +388,11 @@ mod tests {
     fn the_gradient_is_that_of_differences() {
         for kind in [Kind::Hessian, Kind::Gradient] {
             let objective = Objective::new(&family(kind));
-            for y in [[0.3, 0.2, -0.7, 0.5], [-0.1, 1.0, 0.1, 0.4], [0.9, 0.1, 0.1, -0.6]] {
+            for y in [
+                [0.3, 0.2, -0.7, 0.5],
+                [-0.1, 1.0, 0.1, 0.4],
+                [0.9, 0.1, 0.1, -0.6],
+            ] {
                 for sign in [1.0, -1.0] {
                     let mut gradient = [0.0; 4];
                     objective.evaluate(&y, sign, &mut gradient, &mut Scratch::default());
@@ -425,14 +433,20 @@ mod tests {
             .collect();
         let shape = geo_types::Polygon::new(ring.into(), vec![]);
         let domain = Domain::new(&shape, &DomainOptions::default()).expect("valid");
-        let columns = domain.inner.mesh.points.iter().map(|p| V2::new(p.x, -p.y)).collect();
+        let columns = domain
+            .inner
+            .mesh
+            .points
+            .iter()
+            .map(|p| V2::new(p.x, -p.y))
+            .collect();
         let family = Family {
             kind: Kind::Hessian,
             count: 1,
             columns,
             space: DMatrix::identity(1, 1),
             radius: 2.0,
-            discs: vec![],
+            discs: Discs::default(),
             charged: vec![],
             charge: 0.0,
             domain,

@@ -188,7 +188,10 @@ fn headings(ring: &Ring, run: &[usize]) -> Vec<f64> {
 
 /// Difference of the largest and the smallest heading.
 fn span(headings: &[f64]) -> f64 {
-    running_spans(headings.iter()).last().copied().unwrap_or(0.0)
+    running_spans(headings.iter())
+        .last()
+        .copied()
+        .unwrap_or(0.0)
 }
 
 /// The span of each beginning of a sequence of headings.

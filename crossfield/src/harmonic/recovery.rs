@@ -283,9 +283,10 @@ impl<'a> Recovery<'a> {
             Reflection::Even(_, Some(piece)) => {
                 // The values less those of the flux times the distance
                 // outward, which is to the right of the border.
-                let total = stencil.nodes.iter().fold(V2::zeros(), |sum, &(node, w)| {
-                    sum + w * offset(node).im
-                });
+                let total = stencil
+                    .nodes
+                    .iter()
+                    .fold(V2::zeros(), |sum, &(node, w)| sum + w * offset(node).im);
                 stencil.fluxes.push((piece as u32, total));
             }
             _ => {

@@ -46,8 +46,7 @@ pub(crate) fn minima(
         .into_iter()
         .map(|y| {
             let mut ignored = vec![0.0; y.len()];
-            let mut value =
-                |sign| objective.evaluate(&y, sign, &mut ignored, &mut scratch);
+            let mut value = |sign| objective.evaluate(&y, sign, &mut ignored, &mut scratch);
             let (one, other) = (value(1.0), value(-1.0));
             // The better arm. A Hessian's sign exchanges the arms, so that d1
             // can always be the one.
@@ -225,7 +224,10 @@ fn descend(objective: &Objective, y: Vec<f64>, sign: f64, scratch: &mut Scratch)
             pairs.clear();
             continue;
         };
-        let moved = tangent(&direction.iter().map(|d| d * step).collect::<Vec<_>>(), &next);
+        let moved = tangent(
+            &direction.iter().map(|d| d * step).collect::<Vec<_>>(),
+            &next,
+        );
         let change = shifted(&slopes, -1.0, &tangent(&gradient, &next));
         for (s, c) in &mut pairs {
             *s = tangent(s, &next);
@@ -239,7 +241,11 @@ fn descend(objective: &Objective, y: Vec<f64>, sign: f64, scratch: &mut Scratch)
             pairs.push((moved, change));
         }
         // A few steps that gain nothing end it.
-        calm = if energy - value < 1e-8 * energy { calm + 1 } else { 0 };
+        calm = if energy - value < 1e-8 * energy {
+            calm + 1
+        } else {
+            0
+        };
         (y, energy, gradient) = (next, value, slopes);
         if calm == 3 {
             break;
@@ -255,7 +261,11 @@ fn quasi_newton(pairs: &[(Vec<f64>, Vec<f64>)], gradient: &[f64]) -> Vec<f64> {
     let mut factors = Vec::with_capacity(pairs.len());
     for (s, c) in pairs.iter().rev() {
         let product = dot(s, c);
-        let factor = if product > 0.0 { dot(s, &q) / product } else { 0.0 };
+        let factor = if product > 0.0 {
+            dot(s, &q) / product
+        } else {
+            0.0
+        };
         q = shifted(&q, -factor, c);
         factors.push(factor);
     }
@@ -267,7 +277,11 @@ fn quasi_newton(pairs: &[(Vec<f64>, Vec<f64>)], gradient: &[f64]) -> Vec<f64> {
     }
     for ((s, c), factor) in pairs.iter().zip(factors.into_iter().rev()) {
         let product = dot(s, c);
-        let other = if product > 0.0 { dot(c, &q) / product } else { 0.0 };
+        let other = if product > 0.0 {
+            dot(c, &q) / product
+        } else {
+            0.0
+        };
         q = shifted(&q, factor - other, s);
     }
     q.iter_mut().for_each(|x| *x = -*x);
@@ -330,13 +344,19 @@ mod tests {
         let mut random = Pcg32::seed_from_u64(42);
         let first: Vec<u32> = (0..3).map(|_| random.next_u32()).collect();
         let mut again = Pcg32::seed_from_u64(42);
-        assert_eq!(first, [again.next_u32(), again.next_u32(), again.next_u32()]);
+        assert_eq!(
+            first,
+            [again.next_u32(), again.next_u32(), again.next_u32()]
+        );
         let mut random = Pcg32::seed_from_u64(7);
         let drawn: Vec<f64> = (0..4000).map(|_| bell(&mut random)).collect();
         let mean = drawn.iter().sum::<f64>() / 4000.0;
         let spread = drawn.iter().map(|x| x * x).sum::<f64>() / 4000.0;
         // Four standard deviations: 1 / sqrt(4000) and sqrt(2 / 4000).
-        assert!(mean.abs() < 0.064 && (spread - 1.0).abs() < 0.09, "{mean} {spread}");
+        assert!(
+            mean.abs() < 0.064 && (spread - 1.0).abs() < 0.09,
+            "{mean} {spread}"
+        );
     }
 
     /// The memory of one pair (s, c) makes the step exact along s.

@@ -33,7 +33,11 @@ impl Sides {
         let mut turns = Vec::new();
         for ring in &domain.inner.rings {
             let first = turns.len();
-            turns.extend((0..ring.len()).filter(|&k| ring.corner[k]).map(|k| Some(ring.turn[k])));
+            turns.extend(
+                (0..ring.len())
+                    .filter(|&k| ring.corner[k])
+                    .map(|k| Some(ring.turn[k])),
+            );
             if turns.len() == first {
                 turns.push(None);
             }
@@ -104,7 +108,9 @@ impl Sides {
     fn assign(&self, flipped: &[&Flip]) -> Option<Vec<bool>> {
         let mut crossed = vec![false; self.turns.len()];
         for (ring, &(first, count)) in self.rings.iter().enumerate() {
-            let begin = flipped.iter().any(|f| matches!(f, Flip::Ring(r) if *r == ring));
+            let begin = flipped
+                .iter()
+                .any(|f| matches!(f, Flip::Ring(r) if *r == ring));
             let mut kind = begin;
             // Side `first` keeps the ring's own kind; the turn at its start
             // closes the ring.
@@ -113,7 +119,9 @@ impl Sides {
                 let next = first + (k + 1) % count;
                 if let Some(turn) = self.turns[next] {
                     let [stay, change] = prices(turn);
-                    let flip = flipped.iter().any(|f| matches!(f, Flip::Corner(s) if *s == next));
+                    let flip = flipped
+                        .iter()
+                        .any(|f| matches!(f, Flip::Corner(s) if *s == next));
                     kind ^= (change < stay) != flip;
                 }
             }
