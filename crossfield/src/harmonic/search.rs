@@ -359,6 +359,42 @@ mod tests {
         );
     }
 
+    /// What the search returns is a minimum: the slope has vanished, and no
+    /// step in any of many directions goes lower.
+    #[test]
+    fn minima_are_minima() {
+        let ring: Vec<(f64, f64)> = (0..9)
+            .map(|k| (k, f64::from(k) * std::f64::consts::TAU / 9.0))
+            .map(|(k, angle)| (90.0 + 25.0 * (2.0 * f64::from(k)).sin(), angle))
+            .map(|(r, angle)| (r * angle.cos(), r * angle.sin()))
+            .collect();
+        let shape = geo_types::Polygon::new(ring.into(), vec![]);
+        let domain = crate::Domain::new(&shape, &crate::DomainOptions::default()).expect("valid");
+        let basis = crate::HarmonicField::default()
+            .basis(&domain)
+            .expect("a basis");
+        let objective = Objective::new(&basis.family);
+        let mut scratch = Scratch::default();
+        let found = minima(&basis.family, &objective, 12, 3);
+        assert_eq!(found.len(), 12);
+        let mut random = Pcg32::seed_from_u64(1);
+        for minimum in found {
+            let mut gradient = vec![0.0; minimum.y.len()];
+            let energy = objective.evaluate(&minimum.y, 1.0, &mut gradient, &mut scratch);
+            assert_eq!(energy.to_bits(), minimum.energy.to_bits());
+            let slope = dot(&gradient, &gradient).sqrt();
+            println!("{energy:.6} slope {slope:.1e}");
+            assert!(slope < 1e-3 * energy, "{slope} {energy}");
+            let mut ignored = gradient.clone();
+            for _ in 0..40 {
+                let step: Vec<f64> = gradient.iter().map(|_| 3e-3 * bell(&mut random)).collect();
+                let other = unit(shifted(&minimum.y, 1.0, &step)).expect("not zero");
+                let there = objective.evaluate(&other, 1.0, &mut ignored, &mut scratch);
+                assert!(there > energy * (1.0 - 1e-6), "{there} below {energy}");
+            }
+        }
+    }
+
     /// The memory of one pair (s, c) makes the step exact along s.
     #[test]
     fn the_recursion_satisfies_the_secant_equation() {
