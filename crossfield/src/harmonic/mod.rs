@@ -93,8 +93,8 @@ pub struct HarmonicField {
     ///
     /// Default value: 15.
     pub max_turn_deg: f64,
-    /// Most boundary pieces; each costs a solve, and two numbers at each
-    /// vertex.
+    /// Most boundary pieces; each costs a solve, two numbers at each vertex,
+    /// and eight more while the basis is made.
     ///
     /// Default value: 200.
     pub max_pieces: usize,
@@ -138,6 +138,11 @@ impl HarmonicField {
     };
 
     /// All H-fields of `domain` as linear combinations.
+    ///
+    /// The domain is one problem: if a hole that touches the exterior twice
+    /// cuts it in two, fluxes are balanced over both parts together, and what
+    /// one lacks passes through the point where they touch. Make two domains
+    /// of it.
     ///
     /// # Errors
     ///

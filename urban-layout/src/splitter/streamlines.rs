@@ -97,7 +97,7 @@ fn field(region: &Region, options: &PlanOptions) -> Option<Field> {
 
 /// H-fields of regions, which are many and small: the best of a few starts.
 const HARMONIC: HarmonicField = HarmonicField {
-    starts: 6,
+    starts: 3,
     entries: 1,
     max_pieces: 80,
     ..HarmonicField::DEFAULT
