@@ -193,16 +193,29 @@ proptest! {
         }
     }
 
-    /// Straight sides are followed, away from corners, by every field of the
-    /// family: the reflection at boundary vertices makes that exact.
+    /// Straight sides are followed by every field of the family, up to
+    /// rounding: the reflection at boundary vertices leaves nothing else.
     #[test]
-    fn straight_sides_are_followed(shape in polygon(), seed in 0..9_u64) {
-        let domain = domain(&shape, 10.0);
+    fn straight_sides_are_followed(
+        radii in proptest::collection::vec(80.0..100.0_f64, 4..7), angle in 0.0..TAU, seed in 0..9_u64,
+    ) {
+        let step = TAU / radii.len() as f64;
+        let ring: Vec<(f64, f64)> = radii.iter().enumerate()
+            .map(|(k, r)| (r * (angle + k as f64 * step).cos(), r * (angle + k as f64 * step).sin()))
+            .collect();
+        let domain = domain(&shape(&ring), 5.0);
         let basis = quick().basis(&domain)?;
-        if basis.pieces().iter().all(|p| p.turn == 0.0 && p.length > 60.0) {
-            let field = basis.field(&fluxes(basis.pieces().len(), seed))?;
+        let straight = basis.pieces().iter().all(|p| p.turn == 0.0);
+        // Corners within 0.005 of a right angle have no disc, and at the corner
+        // itself the cross is a compromise of two sides that differ by so much.
+        let nearly = |turn: f64| (turn - TAU / 4.0).abs() < 0.006;
+        let least = if domain.corners().iter().any(|c| nearly(c.turn)) { 0.005 } else { 1e-6 };
+        if straight && basis.pieces().len() == radii.len() {
+            let field = basis.field(&fluxes(radii.len(), seed))?;
             let alignment = basis.alignment(&field)?;
-            prop_assert!(alignment.misfit < 0.3, "{:?}", alignment);
+            prop_assert!(alignment.max < least, "{:?}", alignment);
+            let best = &quick().gallery_of(&basis)?[0];
+            prop_assert!(best.alignment.max < least, "{:?}", best.alignment);
         }
     }
 
