@@ -7,7 +7,10 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use crossfield::geo_types::{coord, Coord, LineString, Polygon};
-use crossfield::{BoundaryField, Cursor, DistanceField, Domain, DomainOptions, Field, FieldDesign};
+use crossfield::{
+    BoundaryField, Cursor, DistanceField, Domain, DomainOptions, Field, FieldDesign, GradientField,
+    HarmonicField,
+};
 
 /// A suburban site, in metres: a bend of a road to the south, a straight one
 /// to the east, a concave corner, and a pond.
@@ -104,6 +107,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let fields = [
         ("d-field.svg", DistanceField::default().design(&domain)?),
         ("b-field.svg", BoundaryField::default().design(&domain)?),
+        ("h-field.svg", HarmonicField::default().design(&domain)?),
+        ("g-field.svg", GradientField::default().design(&domain)?),
     ];
     for (name, field) in fields {
         let check = field.index_check();

@@ -93,11 +93,15 @@ pub enum FieldError {
         /// What is wrong with its value and which values are right.
         why: String,
     },
-    /// The requested design is not part of this version of the crate.
-    #[error("{what}")]
-    NotAvailable {
-        /// What is not available, and what to use instead.
-        what: String,
+    /// The boundary has too few pieces for a harmonic field.
+    #[error(
+        "no harmonic field follows a boundary of {pieces} smooth pieces, such as a triangle's; \
+         use a distance field or a boundary field (or lower an H-field's `max_turn_deg` \
+         if the boundary is bent)"
+    )]
+    NoHarmonicField {
+        /// Number of smooth pieces.
+        pieces: usize,
     },
     /// The linear system of a field had no trustworthy solution.
     #[error(

@@ -60,6 +60,18 @@ pub struct Field {
     domain: Domain,
     symmetry: Symmetry,
     crosses: Vec<V2>,
+    roots: Option<Roots>,
+}
+
+/// Vectors of any length whose powers are the representation vectors.
+///
+/// They are interpolated instead of these: a root turns more slowly around a
+/// singularity, which then is one point of the mesh even where the
+/// representation vectors turn more than once.
+#[derive(Clone, Debug)]
+struct Roots {
+    vectors: Vec<V2>,
+    power: u8,
 }
 
 impl Field {
@@ -131,7 +143,31 @@ impl Field {
             domain: domain.clone(),
             symmetry: Symmetry::Cross,
             crosses,
+            roots: None,
         })
+    }
+
+    /// A field from vectors whose `power`-th powers (2 or 4, of their unit
+    /// vectors as complex numbers) are the representation vectors. Their
+    /// lengths count in the interpolation.
+    pub(crate) fn from_roots(
+        domain: &Domain,
+        vectors: Vec<V2>,
+        power: u8,
+    ) -> Result<Self, FieldError> {
+        let crosses = vectors.iter().map(|&root| raised(root, power)).collect();
+        let mut field = Self::from_vectors(domain, crosses)?;
+        field.roots = Some(Roots { vectors, power });
+        Ok(field)
+    }
+
+    /// The vectors that are interpolated, and the power of them that
+    /// represents the cross: the phase of D is `power` times theirs.
+    pub(crate) fn roots(&self) -> (&[V2], u8) {
+        match &self.roots {
+            Some(roots) => (&roots.vectors, roots.power),
+            None => (&self.crosses, 1),
+        }
     }
 
     /// The domain that the field lives on.
@@ -201,13 +237,22 @@ impl Field {
         // A point that is inside but for rounding stays on the edge.
         let shares = shares.map(|share| share.max(0.0));
         let total = shares[0] + shares[1] + shares[2];
-        let sum = (0..3).fold(V2::zeros(), |sum, k| {
-            sum + self.crosses[vertices[k]] * shares[k]
-        });
-        if total > 0.0 {
-            sum / total
+        let (vectors, power) = self.roots();
+        let sum = (0..3).fold(V2::zeros(), |sum, k| sum + vectors[vertices[k]] * shares[k]);
+        if total <= 0.0 {
+            return self.crosses[vertices[0]];
+        }
+        if power == 1 {
+            return sum / total;
+        }
+        // Short against its own terms, not absolutely: roots have any size.
+        let scale: f64 = (0..3)
+            .map(|k| vectors[vertices[k]].norm() * shares[k])
+            .sum();
+        if sum.norm() > SINGULAR * scale {
+            raised(sum, power)
         } else {
-            self.crosses[vertices[0]]
+            V2::zeros()
         }
     }
 
@@ -216,9 +261,25 @@ impl Field {
     #[must_use]
     pub fn smoothed(&self, rounds: usize) -> Self {
         let mut field = self.clone();
+        field.roots = None;
         smooth(&self.domain, &mut field.crosses, rounds);
         field
     }
+}
+
+/// The unit vector along `v` to the power 1, 2 or 4 as a complex number; zero
+/// for a zero vector.
+fn raised(v: V2, power: u8) -> V2 {
+    // By its larger component first: no length may leave the range.
+    let larger = v.amax();
+    if larger == 0.0 {
+        return v;
+    }
+    let mut unit = (v / larger).normalize();
+    for _ in 0..power.ilog2() {
+        unit = V2::new(unit.x * unit.x - unit.y * unit.y, 2.0 * unit.x * unit.y);
+    }
+    unit
 }
 
 /// Jacobi rounds: each inner vertex is averaged with its neighbours, itself

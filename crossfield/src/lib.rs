@@ -36,11 +36,13 @@ pub use domain::{Corner, Cursor, Domain, DomainOptions, Exit, LineEdge, Piece};
 pub use error::FieldError;
 pub use field::{Field, FieldDesign};
 pub use geo_types;
-pub use harmonic::HarmonicField;
+pub use harmonic::{
+    Alignment, BoundaryPiece, Elements, GalleryEntry, GradientField, HarmonicBasis, HarmonicField,
+};
 pub use operators::Laplacian;
 pub use optimal::OptimalField;
 pub use prescribed::{Connection, PrescribedField};
+pub use report::{compare, Comparison, FieldReport};
 pub use singularity::{IndexCheck, Singularity};
 pub use symmetry::{Rosy, Symmetry};
-pub use report::{compare, Comparison, FieldReport};
 pub use turning::{AlongCurve, Turning};

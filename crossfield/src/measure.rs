@@ -20,8 +20,9 @@ impl Field {
     pub(crate) fn angle_gradient(&self, triangle: usize) -> Option<V2> {
         let inner = &*self.domain().inner;
         let vertices = inner.mesh.triangles[triangle].map(|v| v as usize);
+        let (vectors, power) = self.roots();
         let phases = vertices.map(|v| {
-            let d = self.vectors()[v];
+            let d = vectors[v];
             d.y.atan2(d.x)
         });
         let differences = [
@@ -36,7 +37,8 @@ impl Field {
         }
         let unwrapped = [0.0, differences[0], -differences[2]];
         let slope = gradient(vertices.map(|v| inner.mesh.points[v]), unwrapped)?;
-        Some(slope / self.symmetry().number())
+        // The angle of the vectors is that of D over `power`.
+        Some(slope * (f64::from(power) / self.symmetry().number()))
     }
 
     /// Gradient of u at `at`, and the arm nearest to `heading`.
@@ -118,8 +120,8 @@ impl Field {
             .filter_map(|t| {
                 let slope = self.angle_gradient(t)?;
                 let [a, b, c] = mesh.triangles[t].map(|v| v as usize);
-                let d = self.vectors()[a] + self.vectors()[b] + self.vectors()[c];
                 let [p, q, r] = [a, b, c].map(|v| mesh.points[v]);
+                let d = self.interpolate(t, (p + q + r) / 3.0);
                 Some(function(slope, d) * wedge(q - p, r - p) / 2.0)
             })
             .sum()

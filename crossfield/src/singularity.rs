@@ -92,13 +92,15 @@ impl std::fmt::Display for IndexCheck {
 }
 
 impl Field {
-    /// Quarter index of one triangle, from -1 to 1.
+    /// Quarter index of one triangle: -1, 0 or 1 where representation vectors
+    /// are interpolated, that times their power where roots are.
     pub(crate) fn triangle_index(&self, triangle: usize) -> i32 {
-        let phases = self.domain().triangles()[triangle].map(|v| phase(self.vectors()[v as usize]));
+        let (vectors, power) = self.roots();
+        let phases = self.domain().triangles()[triangle].map(|v| phase(vectors[v as usize]));
         let turn: f64 = (0..3)
             .map(|k| wrapped(phases[k], phases[(k + 1) % 3]))
             .sum();
-        (turn / (4.0 * QUARTER)).round() as i32
+        (turn / (4.0 * QUARTER)).round() as i32 * i32::from(power)
     }
 
     /// The singularities, in the order of their first triangle.
@@ -166,16 +168,20 @@ impl Field {
     }
 
     /// Where the interpolated D vanishes in a singular triangle.
-    fn zero(&self, triangle: usize) -> V2 {
+    pub(crate) fn zero(&self, triangle: usize) -> V2 {
         let vertices = self.domain().triangles()[triangle].map(|v| v as usize);
         let points = vertices.map(|v| self.domain().inner.mesh.points[v]);
-        let [a, b, c] = vertices.map(|v| self.vectors()[v]);
-        // D = 0 at barycentric coordinates proportional to these.
+        let [a, b, c] = vertices.map(|v| self.roots().0[v]);
+        // They vanish at barycentric coordinates proportional to these.
         let shares = [wedge(b, c), wedge(c, a), wedge(a, b)];
         let total: f64 = shares.iter().sum();
         let middle = (points[0] + points[1] + points[2]) / 3.0;
-        // Nearly opposite vectors leave the place open.
-        if total.abs() < 1e-12 || shares.iter().any(|s| s / total < -1e-9) {
+        // Nearly opposite vectors leave the place open; roots have any size.
+        let size = [a, b, c]
+            .map(|v| v.norm_squared())
+            .into_iter()
+            .fold(0.0, f64::max);
+        if total.abs() <= 1e-12 * size || shares.iter().any(|s| s / total < -1e-9) {
             return middle;
         }
         (0..3).fold(V2::zeros(), |sum, k| sum + points[k] * (shares[k] / total))
@@ -197,18 +203,18 @@ impl Field {
     /// antisymmetric bit for bit.
     #[must_use]
     pub fn boundary_winding(&self) -> i32 {
-        let crosses = self.vectors();
+        let (vectors, power) = self.roots();
         let borders = &self.domain().inner.mesh.borders;
         let turn: f64 = borders
             .iter()
             .map(|b| {
                 wrapped(
-                    phase(crosses[b.from as usize]),
-                    phase(crosses[b.to as usize]),
+                    phase(vectors[b.from as usize]),
+                    phase(vectors[b.to as usize]),
                 )
             })
             .sum();
-        (turn / (4.0 * QUARTER)).round() as i32
+        (turn / (4.0 * QUARTER)).round() as i32 * i32::from(power)
     }
 
     /// All numbers of the two index laws at once.
@@ -304,6 +310,26 @@ mod tests {
     use super::*;
     use crate::{Domain, DomainOptions};
     use geo_types::polygon;
+
+    /// Roots have any size: the zero of tiny ones was once put in the middle
+    /// of its triangle.
+    #[test]
+    fn the_place_of_a_zero_does_not_depend_on_the_size_of_the_roots() {
+        let shape = polygon![(x: -4., y: -4.), (x: 4., y: -4.), (x: 4., y: 4.), (x: -4., y: 4.)];
+        let domain = Domain::new(&shape, &DomainOptions::default()).expect("valid");
+        let centre = V2::new(0.37, -1.21);
+        for size in [1e-30, 1e-8, 1.0, 1e30] {
+            let points = &domain.inner.mesh.points;
+            let roots = points.iter().map(|p| (p - centre) * size).collect();
+            let field = Field::from_roots(&domain, roots, 2).expect("fits");
+            let found = field.singularities();
+            assert_eq!(found.len(), 1);
+            assert_eq!(found[0].quarter_index, 2);
+            let at = crate::plane::vector(found[0].at);
+            // Roots that are linear in the place are interpolated exactly.
+            assert!((at - centre).norm() < 1e-12);
+        }
+    }
 
     #[test]
     fn an_analytic_singularity_is_found_where_it_is() {

@@ -165,10 +165,54 @@ fn options_out_of_range() {
 }
 
 #[test]
-fn harmonic_fields_say_what_to_use_instead() {
-    let domain = shapes::domain(&shape(&SQUARE), 1.0);
-    let error = HarmonicField.design(&domain).expect_err("not available");
+fn a_triangle_has_no_harmonic_field_and_says_what_to_use() {
+    let domain = shapes::domain(&shape(&[(0., 0.), (9., 1.), (3., 7.)]), 1.0);
+    let error = HarmonicField::default().design(&domain).expect_err("none");
+    assert_eq!(error, FieldError::NoHarmonicField { pieces: 3 });
     assert!(error.to_string().contains("use a distance field"));
+}
+
+#[test]
+fn options_of_harmonic_fields_out_of_range_are_refused() {
+    type Set = fn(&mut HarmonicField, f64);
+    let sets: [(&str, Set, &[f64]); 8] = [
+        ("starts", |h, v| h.starts = v as usize, &[0.0, 1e9]),
+        ("entries", |h, v| h.entries = v as usize, &[0.0]),
+        ("entry", |h, v| h.entry = v as usize, &[1.0, 8.0]),
+        ("diversity", |h, v| h.diversity = v, &[-0.1, 1.1, f64::NAN]),
+        (
+            "max_turn_deg",
+            |h, v| h.max_turn_deg = v,
+            &[0.0, 91.0, f64::NAN],
+        ),
+        ("max_pieces", |h, v| h.max_pieces = v as usize, &[0.0, 3.0]),
+        (
+            "disc_radius",
+            |h, v| h.disc_radius = v,
+            &[-1.0, f64::INFINITY],
+        ),
+        ("alignment", |h, v| h.alignment = v, &[-1.0, f64::NAN]),
+    ];
+    let domain = shapes::domain(&shape(&SQUARE), 1.0);
+    for (name, set, values) in sets {
+        for &value in values {
+            let mut design = HarmonicField::default();
+            set(&mut design, value);
+            let error = design.design(&domain).expect_err("out of range");
+            assert!(
+                matches!(error, FieldError::BadOption { option, .. } if option == name),
+                "{name} {value}: {error}"
+            );
+        }
+    }
+    let basis = HarmonicField::default().basis(&domain).expect("a square");
+    assert!(basis.field(&[1.0; 3]).is_err());
+    assert!(basis.field(&[1.0, f64::NAN, 0.0, 0.0]).is_err());
+    let elsewhere = shapes::domain(&shape(&SQUARE), 2.0);
+    let field = HarmonicField::default()
+        .design(&elsewhere)
+        .expect("a square");
+    assert!(basis.energy(&field).is_err() && basis.alignment(&field).is_err());
 }
 
 /// Not bad at all, though it looks so.

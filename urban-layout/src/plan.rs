@@ -226,11 +226,6 @@ fn validate(options: &PlanOptions) -> Result<()> {
             )));
         }
     }
-    if options.field == crate::options::FieldKind::Harmonic {
-        return Err(Error::usage(
-            "the harmonic field is not in this release; choose the distance or the boundary field",
-        ));
-    }
     if !(options.temperature >= 0.0 && options.temperature.is_finite()) {
         return Err(Error::usage(format!(
             "temperature is {}; it must be 0 or more",

@@ -270,16 +270,55 @@ fn wrong_usage_is_status_2() {
     assert!(!bench.path("plan").exists(), "nothing may be written");
 }
 
-/// What this release cannot do is refused, not replaced by something else.
+/// A site of three straight sides: no H-field follows them.
+const TRIANGLE: &str = r#"{"type": "FeatureCollection", "coordinate_units": "metres", "features": [
+{"type": "Feature", "properties": {"kind": "site"}, "geometry":
+{"type": "Polygon", "coordinates": [[[0, 0], [420, 20], [150, 330], [0, 0]]]}}]}"#;
+
+/// Its D-field takes the place of the H-field, in every region that is still a
+/// triangle.
 #[test]
-fn a_field_that_is_not_there_yet_is_refused() {
+fn a_triangle_without_a_harmonic_field_is_split_all_the_same() {
     let bench = Bench::new();
-    let words = ["generate", "site.geojson", "--out", "plan"];
-    let output = bench.run(&[&words[..], &["--field", "harmonic"]].concat());
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(said.contains("harmonic"), "{said}");
-    assert!(!bench.path("plan").exists(), "nothing may be written");
+    std::fs::write(bench.path("triangle.geojson"), TRIANGLE).expect("written");
+    let words = [
+        "generate",
+        "triangle.geojson",
+        "--field",
+        "harmonic",
+        "--out",
+        "plan",
+    ];
+    bench.expect(0, &words);
+    bench.expect(0, &["check", "triangle.geojson", "plan/layout.geojson"]);
+    let layout =
+        json(&std::fs::read_to_string(bench.path("plan/layout.geojson")).expect("readable"));
+    let features = layout["features"].as_array().expect("features");
+    let streets = features
+        .iter()
+        .filter(|f| f["properties"]["kind"] == "street")
+        .count();
+    assert!(streets > 0, "not split at all");
+}
+
+/// Each field gives a layout that passes its own check, and two runs agree.
+#[test]
+fn harmonic_fields_make_layouts() {
+    let bench = Bench::new();
+    for plan in ["one", "two"] {
+        let words = [
+            "generate",
+            "site.geojson",
+            "--field",
+            "harmonic",
+            "--out",
+            plan,
+        ];
+        bench.expect(0, &words);
+    }
+    bench.expect(0, &["check", "site.geojson", "one/layout.geojson"]);
+    let read = |path| std::fs::read_to_string(bench.path(path)).expect("readable");
+    assert_eq!(read("one/layout.geojson"), read("two/layout.geojson"));
 }
 
 #[test]

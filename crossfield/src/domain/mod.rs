@@ -20,7 +20,7 @@ use crate::footpoint::EdgeTree;
 use crate::plane::{coord, vector, V2};
 use crate::FieldError;
 use lines::Lines;
-pub(crate) use mesh::Border;
+pub(crate) use mesh::{Border, BORDER};
 pub use pieces::Piece;
 pub(crate) use ring::Ring;
 use sizing::Sizing;
@@ -404,6 +404,37 @@ impl Domain {
             size: inner.frame.size,
         };
         Self::assemble(frame, rings, mesh, inner.area, inner.edge_length)
+    }
+
+    /// The same mesh seen in a mirror: x becomes -x relative to the centre of
+    /// the bounding box. Vertices keep their numbers; rings and triangles are
+    /// walked the other way.
+    #[cfg(test)]
+    pub(crate) fn mirrored(&self) -> Self {
+        let inner = &*self.inner;
+        let flip = |p: &mut V2| p.x = -p.x;
+        let mut rings = inner.rings.clone();
+        let mut mesh = inner.mesh.clone();
+        for border in &mut mesh.borders {
+            std::mem::swap(&mut border.from, &mut border.to);
+            let count = rings[border.ring as usize].len() as u32;
+            border.edge = (2 * count - 2 - border.edge) % count;
+        }
+        for ring in &mut rings {
+            ring.points.iter_mut().for_each(flip);
+            ring.points.reverse();
+            ring.turn.reverse();
+            ring.corner.reverse();
+            ring.input_vertex.reverse();
+            ring.input_edge.reverse();
+            ring.input_edge.rotate_left(1);
+        }
+        mesh.points.iter_mut().for_each(flip);
+        for (triangle, neighbours) in mesh.triangles.iter_mut().zip(&mut mesh.neighbours) {
+            triangle.swap(1, 2);
+            neighbours.swap(0, 2);
+        }
+        Self::assemble(inner.frame, rings, mesh, inner.area, inner.edge_length)
     }
 
     /// Positions of all vertices.

@@ -78,17 +78,30 @@ fn field(region: &Region, options: &PlanOptions) -> Option<Field> {
     let edge_length = (region.area.sqrt() / 28.0).clamp(5.0, 25.0);
     let rings = open_rings(region)?;
     let domain = mesh(&rings, edge_length)?;
-    match options.field {
-        FieldKind::Distance => DistanceField {
+    let distance = || {
+        DistanceField {
             weights: weights(&rings),
             ..DistanceField::default()
         }
         .design(&domain)
-        .ok(),
+        .ok()
+    };
+    match options.field {
+        FieldKind::Distance => distance(),
         FieldKind::Boundary => BoundaryField::default().design(&domain).ok(),
-        FieldKind::Harmonic => HarmonicField.design(&domain).ok(),
+        // A triangle has no H-field, and a boundary of very many pieces is not
+        // worth one.
+        FieldKind::Harmonic => HARMONIC.design(&domain).ok().or_else(distance),
     }
 }
+
+/// H-fields of regions, which are many and small: the best of a few starts.
+const HARMONIC: HarmonicField = HarmonicField {
+    starts: 3,
+    entries: 1,
+    max_pieces: 80,
+    ..HarmonicField::DEFAULT
+};
 
 /// The region's rings, with the streets that end in the open or lead to a hole
 /// (whose two sides are both the region's) opened to a narrow gap: a mesh needs
