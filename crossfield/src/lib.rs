@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod boundary;
+mod connection;
 mod constraint;
 mod cross;
 mod distance;

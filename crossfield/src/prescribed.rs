@@ -19,11 +19,12 @@
 use std::f64::consts::TAU;
 
 use crate::boundary::{BoundaryField, FREE};
-use crate::domain::{Border, Domain, Ring};
+use crate::connection::{chains, frame, inside, transport, well_inside, whole, winding, Pole};
+use crate::domain::Domain;
 use crate::factor;
 use crate::field::{Field, FieldDesign};
 use crate::operators::{edge_weights, laplacian_plus, Laplacian};
-use crate::plane::{orient, wedge, V2};
+use crate::plane::V2;
 use crate::singularity::Singularity;
 use crate::symmetry::{product, quotient, Symmetry};
 use crate::system::{to_unit, System};
@@ -125,18 +126,6 @@ impl PrescribedField {
     }
 }
 
-/// How often the wanted D~ turns along a ring, the domain on its left.
-fn winding(ring: &Ring, symmetry: Symmetry) -> i32 {
-    let around = if ring.area() > 0.0 { 1 } else { -1 };
-    let corners: i32 = ring.turn.iter().map(|&turn| whole(turn, symmetry)).sum();
-    around * symmetry.folds() as i32 - corners
-}
-
-/// A turn of the boundary in whole N-th turns.
-fn whole(turn: f64, symmetry: Symmetry) -> i32 {
-    (turn / symmetry.period()).round() as i32
-}
-
 impl FieldDesign for PrescribedField {
     /// The field of `domain` with these singularities.
     ///
@@ -185,32 +174,6 @@ impl FieldDesign for PrescribedField {
         }
         Ok(field)
     }
-}
-
-/// A place that F winds around: a singularity, or a hole.
-#[derive(Clone, Copy, Debug)]
-struct Pole {
-    at: V2,
-    index: i32,
-}
-
-/// F at `p`.
-fn frame(poles: &[Pole], p: V2) -> V2 {
-    let power = |pole: &Pole| {
-        let d = p - pole.at;
-        let (y, x) = (f64::from(pole.index) * d.y.atan2(d.x)).sin_cos();
-        V2::new(x, y)
-    };
-    poles.iter().map(power).fold(V2::new(1.0, 0.0), product)
-}
-
-/// By how much F turns on the straight way from `p` to `q`.
-fn transport(poles: &[Pole], p: V2, q: V2) -> f64 {
-    let seen = |pole: &Pole| {
-        let (a, b) = (p - pole.at, q - pole.at);
-        f64::from(pole.index) * wedge(a, b).atan2(a.dot(&b))
-    };
-    poles.iter().map(seen).sum()
 }
 
 impl PrescribedField {
@@ -485,115 +448,11 @@ fn vectors(domain: &Domain, mut system: System, frames: &[V2]) -> Result<Vec<V2>
         .collect())
 }
 
-/// The borders of each ring, in the order in which it is walked.
-fn chains(domain: &Domain) -> Vec<Vec<Border>> {
-    let inner = &*domain.inner;
-    let mut chains = vec![Vec::new(); inner.rings.len()];
-    for &border in &inner.mesh.borders {
-        chains[border.ring as usize].push(border);
-    }
-    for (chain, ring) in chains.iter_mut().zip(&inner.rings) {
-        let place = |border: &Border| {
-            let (start, _) = ring.edge(border.edge as usize);
-            (inner.mesh.points[border.from as usize] - start).norm_squared()
-        };
-        chain.sort_by(|a, b| {
-            let edges = a.edge.cmp(&b.edge);
-            edges.then_with(|| place(a).total_cmp(&place(b)))
-        });
-    }
-    chains
-}
-
-/// `p`, moved so far into its triangle that each corner has a share of a
-/// seventh or more: no vertex comes near it, and no edge is seen under more
-/// than 152 degrees in a triangle with even sides. By a quarter of a side at
-/// most.
-fn well_inside(corners: [V2; 3], p: V2) -> V2 {
-    let [a, b, c] = corners;
-    let shares = [orient(b, c, p), orient(c, a, p), orient(a, b, p)];
-    let whole = orient(a, b, c);
-    let shares = shares.map(|s| {
-        if whole > 0.0 {
-            (s / whole).max(0.2)
-        } else {
-            1.0
-        }
-    });
-    let total: f64 = shares.iter().sum();
-    (a * shares[0] + b * shares[1] + c * shares[2]) / total
-}
-
-/// A point inside a hole: in the middle of the widest piece of a line
-/// across it.
-fn inside(ring: &Ring) -> V2 {
-    let mut heights: Vec<f64> = ring.points.iter().map(|p| p.y).collect();
-    heights.sort_by(f64::total_cmp);
-    // Half-way between two heights that differ most: no vertex is met.
-    let gap = (0..heights.len() - 1)
-        .max_by(|&i, &j| (heights[i + 1] - heights[i]).total_cmp(&(heights[j + 1] - heights[j])));
-    let k = gap.unwrap_or(0);
-    let y = f64::midpoint(heights[k], heights[k + 1]);
-    let mut met: Vec<f64> = (0..ring.len())
-        .filter_map(|k| {
-            let (a, b) = ring.edge(k);
-            ((a.y > y) != (b.y > y)).then(|| a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x))
-        })
-        .collect();
-    met.sort_by(f64::total_cmp);
-    let widest = met
-        .chunks_exact(2)
-        .max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
-    let x = widest.map_or(ring.points[0].x, |pair| f64::midpoint(pair[0], pair[1]));
-    V2::new(x, y)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::DomainOptions;
     use geo_types::{coord, polygon};
-    use std::f64::consts::PI;
-
-    #[test]
-    fn a_point_inside_a_hole_is_inside() {
-        let shape = polygon!(
-            exterior: [(x: 0., y: 0.), (x: 40., y: 0.), (x: 40., y: 40.), (x: 0., y: 40.)],
-            // A horseshoe, whose centre lies outside it.
-            interiors: [[(x: 10., y: 10.), (x: 30., y: 10.), (x: 30., y: 30.), (x: 27., y: 30.),
-                (x: 27., y: 13.), (x: 13., y: 13.), (x: 13., y: 30.), (x: 10., y: 30.)]],
-        );
-        let domain = Domain::new(&shape, &DomainOptions::default()).expect("valid");
-        let ring = &domain.inner.rings[1];
-        assert!(ring.contains(inside(ring)));
-        assert!(winding(ring, Symmetry::Cross) == 0);
-        assert_eq!(PrescribedField::needed_sum(&domain, Symmetry::Cross), 0);
-    }
-
-    #[test]
-    fn transport_is_the_turn_of_the_frame() {
-        let poles = [
-            Pole {
-                at: V2::new(0.3, 0.2),
-                index: 1,
-            },
-            Pole {
-                at: V2::new(-0.4, 0.1),
-                index: -3,
-            },
-        ];
-        let (p, q) = (V2::new(1.0, -0.5), V2::new(0.7, 1.1));
-        let theta = transport(&poles, p, q);
-        let (y, x) = theta.sin_cos();
-        let turned = product(frame(&poles, p), V2::new(x, y));
-        assert!((turned - frame(&poles, q)).norm() < 1e-12);
-        assert!(theta.abs() < PI * 4.0);
-        // Around both, in steps: their indices.
-        let walk =
-            [(1., -1.), (1., 1.), (-1., 1.), (-1., -1.), (1., -1.)].map(|(x, y)| V2::new(x, y));
-        let around: f64 = walk.windows(2).map(|w| transport(&poles, w[0], w[1])).sum();
-        assert!((around + 2.0 * TAU).abs() < 1e-12);
-    }
 
     #[test]
     fn what_cannot_be_is_refused_with_the_reason() {
