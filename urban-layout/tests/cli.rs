@@ -388,7 +388,10 @@ fn a_field_is_drawn_and_measured() {
         assert!(svg.len() < 200_000 && svg.matches("<path").count() >= 2);
     }
     let said = bench.expect(0, &["field", "site.geojson", "--out", "plain"]);
-    assert!(said.contains("0 singularities"), "{said}");
+    assert!(
+        said.contains("0 singularities, indices 0 + 4 at corners = 4 x 1; "),
+        "{said}"
+    );
 }
 
 /// Singularities are in the coordinates of the file.

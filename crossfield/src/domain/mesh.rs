@@ -8,12 +8,13 @@ use spade::{
 };
 
 use super::core::{Core, NONE};
+use super::fault::{crossing, misplaced, overlapping};
 use super::lattice::{boundary, interior, Segment, LINE};
 use super::lines::Lines;
 use super::ring::{Frame, Ring};
 use super::sizing::Sizing;
 use super::DomainOptions;
-use crate::plane::{orient_exact, V2};
+use crate::plane::V2;
 use crate::FieldError;
 
 type Cdt = ConstrainedDelaunayTriangulation<Point2<f64>>;
@@ -536,124 +537,77 @@ impl Mesh {
     }
 }
 
-/// Refuses two segments between the same points: a zero-width slit, or rings
-/// that share an edge.
-fn overlapping(rings: &[Ring], frame: Frame, segments: &[Segment]) -> Result<(), FieldError> {
-    let key = |s: &Segment| (s.from.min(s.to), s.from.max(s.to));
-    let mut order: Vec<&Segment> = segments.iter().collect();
-    order.sort_by_key(|s| (key(s), s.ring, s.edge));
-    match order.windows(2).find(|pair| key(pair[0]) == key(pair[1])) {
-        Some(pair) => {
-            let at = rings[pair[0].ring as usize].points[pair[0].edge as usize];
-            Err(intersecting(rings, frame, pair[0], pair[1], at))
-        }
-        None => Ok(()),
-    }
-}
+#[cfg(test)]
+mod tests {
+    use super::super::ring::rings;
+    use super::*;
+    use geo_types::polygon;
 
-/// The error for a segment that spade could not add: finds what it crosses.
-fn crossing(
-    rings: &[Ring],
-    frame: Frame,
-    points: &[V2],
-    segments: &[Segment],
-    pair: [usize; 2],
-) -> FieldError {
-    let refused = segments.iter().find(|s| {
-        pair == [s.from as usize, s.to as usize] || pair == [s.to as usize, s.from as usize]
-    });
-    let Some(refused) = refused else {
-        return FieldError::MeshFailed {
-            what: "two boundary edges cross".into(),
+    /// Each triangle by its corners, the lowest first, in order.
+    fn sorted(mesh: &Mesh) -> Vec<[(u64, u64); 3]> {
+        let bits = |v: u32| {
+            let p = mesh.points[v as usize];
+            (p.x.to_bits(), p.y.to_bits())
         };
-    };
-    let ends = |s: &Segment| (points[s.from as usize], points[s.to as usize]);
-    let (a, b) = ends(refused);
-    let across = |s: &&Segment| {
-        let (c, d) = ends(s);
-        cross_properly(a, b, c, d)
-    };
-    let other = segments.iter().find(across).unwrap_or(refused);
-    intersecting(rings, frame, refused, other, (a + b) / 2.0)
-}
-
-fn intersecting(
-    rings: &[Ring],
-    frame: Frame,
-    one: &Segment,
-    other: &Segment,
-    at: V2,
-) -> FieldError {
-    let edge = |s: &Segment| rings[s.ring as usize].input_edge[s.edge as usize] as usize;
-    FieldError::SelfIntersecting {
-        ring: one.ring as usize,
-        edge: edge(one),
-        other_ring: other.ring as usize,
-        other_edge: edge(other),
-        x: at.x + frame.origin.x,
-        y: at.y + frame.origin.y,
+        let mut all: Vec<[(u64, u64); 3]> = mesh
+            .triangles
+            .iter()
+            .map(|t| {
+                let mut corners = t.map(bits);
+                let least = (0..3).min_by_key(|&k| corners[k]).unwrap_or(0);
+                corners.rotate_left(least);
+                corners
+            })
+            .collect();
+        all.sort_unstable();
+        all
     }
-}
 
-/// The error for rings whose triangles do not add up to their area: edges
-/// that cross just where both were subdivided, or a hole in the wrong place.
-fn misplaced(rings: &[Ring], frame: Frame, expected: f64, got: f64) -> FieldError {
-    if let Some((one, other, at)) = first_crossing(rings) {
-        return intersecting(rings, frame, &one, &other, at);
-    }
-    for (index, ring) in rings.iter().enumerate().skip(1) {
-        // A vertex may touch another ring; the majority decides.
-        let outside = |p: &&V2| {
-            let holes = rings.iter().enumerate().skip(1);
-            !rings[0].contains(**p)
-                || holes
-                    .filter(|(k, _)| *k != index)
-                    .any(|(_, r)| r.contains(**p))
+    #[test]
+    fn a_core_changes_nothing_but_numbers() {
+        let shape = polygon!(
+            exterior: [(x: 0., y: 0.), (x: 91., y: 3.), (x: 100., y: 70.), (x: 40., y: 64.), (x: 7., y: 88.)],
+            interiors: [[(x: 30., y: 30.), (x: 50., y: 30.), (x: 40., y: 47.)]],
+        );
+        let options = DomainOptions {
+            edge_length: 0.7,
+            ..DomainOptions::default()
         };
-        if 2 * ring.points.iter().filter(outside).count() > ring.len() {
-            return FieldError::HoleOutside { ring: index };
-        }
-    }
-    FieldError::MeshFailed {
-        what: format!("its triangles cover {got}, the polygon has {expected} square units"),
-    }
-}
-
-/// Two ring edges that cross properly, by a sweep over their x ranges.
-fn first_crossing(rings: &[Ring]) -> Option<(Segment, Segment, V2)> {
-    let mut edges: Vec<(f64, f64, Segment)> = Vec::new();
-    for (ring, points) in rings.iter().enumerate() {
-        for k in 0..points.len() {
-            let (a, b) = points.edge(k);
-            let segment = Segment {
-                from: 0,
-                to: 0,
-                ring: ring as u32,
-                edge: k as u32,
-            };
-            edges.push((a.x.min(b.x), a.x.max(b.x), segment));
-        }
-    }
-    edges.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let ends = |s: &Segment| rings[s.ring as usize].edge(s.edge as usize);
-    let mut open: Vec<(f64, Segment)> = Vec::new();
-    for &(left, right, segment) in &edges {
-        open.retain(|&(end, _)| end >= left);
-        let (a, b) = ends(&segment);
-        for (_, other) in &open {
-            let (c, d) = ends(other);
-            if cross_properly(a, b, c, d) {
-                return Some((*other, segment, (a + b) / 2.0));
+        let (frame, rings) = rings(&shape, 0.5).expect("valid");
+        let sizing = Sizing::new(&rings, 0.7, &options);
+        assert!(sizing.is_large());
+        let (points, segments) = boundary(&rings, &Lines::default(), &sizing, 100_000);
+        let job = Job {
+            rings: &rings,
+            frame,
+            points: &points,
+            segments: &segments,
+            on_lines: &[],
+            step: 0.7,
+            options: &options,
+        };
+        let [with, without] = [true, false].map(|cored| {
+            let (inside, core) = interior(&rings, &points, &segments, &sizing, cored, 100_000);
+            assert_eq!(cored, core.triangles.len() > 5000);
+            job.run(&inside, &core)
+                .expect("valid")
+                .expect("the rim is whole")
+        });
+        // Points that go through spade are scaled by a power of two and back,
+        // which keeps their bits.
+        assert_eq!(sorted(&with), sorted(&without));
+        assert_eq!(with.borders.len(), without.borders.len());
+        for (t, neighbours) in with.neighbours.iter().enumerate() {
+            for (k, &across) in neighbours.iter().enumerate() {
+                let (a, b) = (with.triangles[t][k], with.triangles[t][(k + 1) % 3]);
+                if across & BORDER == 0 {
+                    let other = with.triangles[across as usize];
+                    assert!((0..3).any(|j| (other[j], other[(j + 1) % 3]) == (b, a)));
+                } else {
+                    let border = with.borders[(across & !BORDER) as usize];
+                    assert_eq!((border.from, border.to), (a, b));
+                }
             }
         }
-        open.push((right, segment));
     }
-    None
-}
-
-/// Whether two segments cross in a point inside both.
-fn cross_properly(a: V2, b: V2, c: V2, d: V2) -> bool {
-    let apart = |u: f64, v: f64| (u > 0.0 && v < 0.0) || (u < 0.0 && v > 0.0);
-    apart(orient_exact(a, b, c), orient_exact(a, b, d))
-        && apart(orient_exact(c, d, a), orient_exact(c, d, b))
 }

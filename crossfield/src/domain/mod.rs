@@ -1,6 +1,7 @@
 //! A triangulated polygon, the ground that fields are designed on.
 
 mod core;
+mod fault;
 mod lattice;
 mod lines;
 mod locate;

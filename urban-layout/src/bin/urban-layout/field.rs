@@ -27,13 +27,27 @@ pub(crate) fn run(job: &FieldJob) -> Result<u8> {
     if job.common.json {
         println!("{figures}");
     } else {
+        let number = |key: &str| figures[key].as_i64().unwrap_or(0);
+        let (sum, corners, euler) = (
+            number("index_sum"),
+            number("boundary_quarter_turns"),
+            number("euler"),
+        );
+        // The law holds for fields that follow the boundary.
+        let sign = if sum + corners == 4 * euler {
+            "="
+        } else {
+            "!="
+        };
+        let aligned = if figures["aligned"] == true {
+            ""
+        } else {
+            " (it does not follow the boundary everywhere)"
+        };
         println!(
-            "{} vertices; {} singularities, indices {} + {} corners = 4 x {}; mean |div| {:.2e} per metre; mesh {:.3} s, field {:.3} s",
+            "{} vertices; {} singularities, indices {sum} + {corners} at corners {sign} 4 x {euler}{aligned}; mean |div| {:.2e} per metre; mesh {:.3} s, field {:.3} s",
             figures["vertices"],
             study.singularities().len(),
-            figures["index_sum"],
-            figures["boundary_quarter_turns"],
-            figures["euler"],
             figures["mean_abs_divergence"].as_f64().unwrap_or(0.0),
             study.mesh_seconds,
             study.field_seconds,
