@@ -123,6 +123,33 @@ proptest! {
         prop_assert!((e / f - 1.0).abs() < 1e-6, "{} {}", e, f);
     }
 
+    /// The same for the gradient between two opposite sides.
+    #[test]
+    fn turning_the_mesh_turns_gradients(
+        shape in polygon(), angle in -4.0..4.0_f64, x in -1e6..1e6_f64, y in -1e6..1e6_f64,
+    ) {
+        let here = domain(&shape, 25.0);
+        let there = here.moved(angle, coord! {x: x, y: y});
+        let sides = GradientField::sides(&here)?;
+        let outer = sides.iter().filter(|s| s.ring == 0).count();
+        if outer < 4 {
+            return Ok(());
+        }
+        let crossed: Vec<bool> = (0..sides.len()).map(|k| k == 0 || k == outer / 2).collect();
+        let design = GradientField::default();
+        let [a, b] = [design.gallery_for(&here, &crossed)?, design.gallery_for(&there, &crossed)?];
+        prop_assert_eq!((a.len(), b.len()), (1, 1));
+        let off = (0..here.vertex_count())
+            .filter(|&v| !in_a_tip(&here, v))
+            .filter(|&v| match (at_vertex(&a[0].field, v), at_vertex(&b[0].field, v)) {
+                (Some(p), Some(q)) => p.turned(angle).deviation(&q) > 1e-4,
+                (p, q) => p != q,
+            })
+            .count();
+        prop_assert_eq!(off, 0);
+        prop_assert!((a[0].energy / b[0].energy - 1.0).abs() < 1e-6);
+    }
+
     /// Twice the size, bit for bit: powers of two scale without rounding.
     #[test]
     fn scaling_changes_nothing(shape in polygon(), power in -20..20_i32) {
