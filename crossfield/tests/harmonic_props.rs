@@ -62,7 +62,7 @@ fn gallery_of(
 }
 
 proptest! {
-    #![proptest_config(config(5))]
+    #![proptest_config(config(8))]
 
     /// Exactly one H-field, and it is constant. Second derivatives lose
     /// rounding / h^2: 1e-16 times 100^2 vertices, times the 1e-9 of which map
@@ -542,12 +542,12 @@ fn sides_may_be_assigned() {
 /// Long, thin, spiky and tiny shapes: a gallery or an error, never a panic.
 #[test]
 fn hostile_shapes_are_survived() {
-    let comb: Vec<(f64, f64)> = (0..40)
+    let comb: Vec<(f64, f64)> = (0..15)
         .flat_map(|k| {
             let x = f64::from(k);
             [(x, 0.0), (x + 0.45, 30.0), (x + 0.55, 30.0)]
         })
-        .chain([(40.0, 0.0), (40.0, -5.0), (0.0, -5.0)])
+        .chain([(15.0, 0.0), (15.0, -5.0), (0.0, -5.0)])
         .collect();
     let shapes = [
         shape(&[(0., 0.), (1000., 0.), (1000., 0.01), (0., 0.02)]),
@@ -569,14 +569,15 @@ fn hostile_shapes_are_survived() {
             vec![shapes::ring(&[(0., 5.), (5., 4.), (10., 5.), (5., 6.)])],
         ),
     ];
+    let few = GradientField {
+        assignments: 2,
+        ..GradientField::default()
+    };
     for polygon in &shapes {
         let Ok(domain) = Domain::new(polygon, &DomainOptions::default()) else {
             continue;
         };
-        for gallery in [
-            quick().gallery(&domain),
-            GradientField::default().gallery(&domain),
-        ] {
+        for gallery in [quick().gallery(&domain), few.gallery(&domain)] {
             for entry in gallery.into_iter().flatten() {
                 assert!(entry.energy.is_finite() && entry.field.index_check().winding_law());
             }
