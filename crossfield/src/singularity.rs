@@ -78,9 +78,10 @@ impl std::fmt::Display for IndexCheck {
             interior,
             corners,
             euler,
+            folds,
             ..
         } = self;
-        write!(f, "{interior} + {corners} {sign} 4 x {euler}")?;
+        write!(f, "{interior} + {corners} {sign} {folds} x {euler}")?;
         if !self.aligned {
             write!(f, " (not aligned)")?;
         }

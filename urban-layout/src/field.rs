@@ -29,7 +29,7 @@ pub struct FieldOptions {
     /// Rounds of smoothing: of a distance field within its design, of any other
     /// after it. Default: the field's own, 1 and 0.
     pub smoothing: Option<usize>,
-    /// Seed of designs that draw at random; none of the present ones does.
+    /// Seed of designs that draw at random: the harmonic field's search.
     /// Default 0.
     pub seed: u64,
 }
@@ -67,9 +67,9 @@ impl FieldStudy {
     ///
     /// # Errors
     ///
-    /// Options out of their range, a field that this release has not, and an
-    /// edge length that asks for over four million vertices are errors of
-    /// usage; what is wrong with the site itself is one of input.
+    /// Options out of their range, and an edge length that asks for over four
+    /// million vertices are errors of usage; what is wrong with the site itself,
+    /// such as a triangle that has no harmonic field, is one of input.
     ///
     /// # Examples
     ///
@@ -178,8 +178,11 @@ fn design(domain: &Domain, options: &FieldOptions) -> std::result::Result<Field,
         .design(domain)
         .map(smoothed),
         FieldKind::Harmonic => {
-            let standard: HarmonicField = Default::default();
-            standard.design(domain).map(smoothed)
+            let seeded = HarmonicField {
+                seed: options.seed,
+                ..HarmonicField::DEFAULT
+            };
+            seeded.design(domain).map(smoothed)
         }
     }
 }
@@ -187,9 +190,9 @@ fn design(domain: &Domain, options: &FieldOptions) -> std::result::Result<Field,
 /// The error of a field as one of ours.
 fn reported(error: FieldError) -> Error {
     match error {
-        FieldError::BadOption { .. }
-        | FieldError::NotAvailable { .. }
-        | FieldError::TooManyVertices { .. } => Error::usage(error.to_string()),
+        FieldError::BadOption { .. } | FieldError::TooManyVertices { .. } => {
+            Error::usage(error.to_string())
+        }
         _ => Error::input(error.to_string()),
     }
 }
