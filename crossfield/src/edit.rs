@@ -3,8 +3,6 @@
 //! All of it happens on representation vectors, never on angles, and what is
 //! not meant stays as it is, bit for bit.
 
-use std::sync::Arc;
-
 use geo_types::{Coord, Polygon};
 use rstar::primitives::Line;
 use rstar::RTree;
@@ -208,7 +206,7 @@ impl Field {
 
     /// Refuses another mesh or symmetry.
     fn same_ground(&self, other: &Self) -> Result<(), FieldError> {
-        if !Arc::ptr_eq(&self.domain().inner, &other.domain().inner) {
+        if !self.domain().is_same(other.domain()) {
             return Err(FieldError::option(
                 "fields",
                 "live on different domains; design them on clones of one",

@@ -217,3 +217,28 @@ proptest! {
         prop_assert!(domain.vertex_count() < 20_000);
     }
 }
+
+#[test]
+fn equal_input_gives_the_same_mesh_and_other_options_another() {
+    let shape = crossfield::geo_types::polygon![(x: 0., y: 0.), (x: 60., y: 5.), (x: 50., y: 40.), (x: 8., y: 33.)];
+    let of = |edge_length: f64| {
+        let options = DomainOptions {
+            edge_length,
+            ..DomainOptions::default()
+        };
+        Domain::new(&shape, &options).expect("valid")
+    };
+    let domain = of(5.0);
+    assert!(domain.is_same(&domain.clone()));
+    assert!(domain.is_same(&of(5.0)));
+    assert!(!domain.is_same(&of(6.0)));
+    let moved = Domain::new(
+        &map(&shape, |c| coord! { x: c.x + 1.0, y: c.y }),
+        &DomainOptions {
+            edge_length: 5.0,
+            ..DomainOptions::default()
+        },
+    )
+    .expect("valid");
+    assert!(!domain.is_same(&moved));
+}

@@ -578,10 +578,15 @@ impl Domain {
         topology::min_angle(&self.inner.mesh)
     }
 
-    /// Whether both are one mesh: clones of each other.
+    /// Whether both are one mesh: clones of each other, or triangulated alike to
+    /// the bit, as equal polygons with equal options are.
     #[must_use]
     pub fn is_same(&self, other: &Self) -> bool {
+        let (a, b) = (&*self.inner, &*other.inner);
         Arc::ptr_eq(&self.inner, &other.inner)
+            || (a.frame.origin == b.frame.origin
+                && a.mesh.points == b.mesh.points
+                && a.mesh.triangles == b.mesh.triangles)
     }
 
     pub(crate) fn local(&self, at: Coord<f64>) -> V2 {

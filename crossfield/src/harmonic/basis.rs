@@ -142,8 +142,7 @@ impl HarmonicBasis {
     }
 
     fn same_domain(&self, field: &Field) -> Result<(), FieldError> {
-        let (mine, other) = (&self.family.domain.inner, &field.domain().inner);
-        if std::sync::Arc::ptr_eq(mine, other) {
+        if self.family.domain.is_same(field.domain()) {
             return Ok(());
         }
         Err(FieldError::option(
