@@ -3,15 +3,16 @@
 
 use std::collections::BTreeSet;
 
+use geo_types::Coord;
 use network_opt::{
-    collapse_short_edges, optimize, roads, Block, FaceId, Freedom, OptimizeOptions, StripFit,
-    VertexId,
+    collapse_short_edges, optimize, roads, Block, FaceId, Freedom, HalfEdgeId, OptimizeOptions,
+    StripFit, VertexId,
 };
 
 use crate::error::{Error, Result};
 use crate::network::{Network, SideKind};
 use crate::options::PlanOptions;
-use crate::plane::{angle, dist, turn, unit};
+use crate::plane::{angle, dist, lerp, turn, unit};
 use crate::planner::seed::Path;
 use crate::planner::Tree;
 use crate::progress::{Progress, Stage};
@@ -30,6 +31,9 @@ const TRIES: usize = 3;
 /// Least angle between streets at a junction, degrees, with a margin over the
 /// law's 60.
 const LEAST_ANGLE_DEG: f64 = 62.0;
+/// A street's direction at a junction is that of its first metres, as the
+/// certificate has it.
+const DIRECTION_LENGTH: f64 = 10.0;
 /// Most turn at a vertex inside a street, degrees.
 const MOST_KINK_DEG: f64 = 24.0;
 
@@ -207,8 +211,9 @@ fn faults(network: &Network, options: &PlanOptions) -> usize {
             count += usize::from(turn(*a * -1.0, *b).abs() > MOST_KINK_DEG.to_radians());
             continue;
         }
-        for (i, &a) in dirs.iter().enumerate() {
-            count += dirs[i + 1..]
+        let leaving: Vec<_> = streets.iter().map(|&h| leaving(network, h)).collect();
+        for (i, &a) in leaving.iter().enumerate() {
+            count += leaving[i + 1..]
                 .iter()
                 .filter(|&&b| angle(a, b) < LEAST_ANGLE_DEG.to_radians())
                 .count();
@@ -235,4 +240,25 @@ fn faults(network: &Network, options: &PlanOptions) -> usize {
         }
     }
     count
+}
+
+/// Unit direction in which the street of half-edge `h` leaves its origin.
+fn leaving(network: &Network, h: HalfEdgeId) -> Coord<f64> {
+    let mesh = &network.mesh;
+    let start = mesh.point(mesh.origin(h));
+    let (mut at, mut left) = (h, DIRECTION_LENGTH);
+    loop {
+        let (long, end) = (mesh.length(at), mesh.dest(at));
+        if long >= left {
+            let tip = lerp(mesh.point(mesh.origin(at)), mesh.point(end), left / long);
+            return unit(tip - start);
+        }
+        left -= long;
+        let on = match network.streets_at(end).as_slice() {
+            [a, b] if *a == mesh.twin(at) => *b,
+            [a, b] if *b == mesh.twin(at) => *a,
+            _ => return unit(mesh.point(end) - start),
+        };
+        at = on;
+    }
 }
