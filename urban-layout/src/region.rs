@@ -181,6 +181,23 @@ impl Region {
         best.1
     }
 
+    /// Places along all sides, at most `spacing` metres apart, ring by ring.
+    pub(crate) fn places(&self, spacing: f64) -> Vec<Place> {
+        let mut out = Vec::new();
+        for (ring, l) in self.loops.iter().enumerate() {
+            for edge in 0..l.points.len() {
+                let (a, b) = l.edge(edge);
+                let n = (dist(a, b) / spacing).ceil().max(1.0) as usize;
+                out.extend((0..n).map(|k| Place {
+                    ring,
+                    edge,
+                    at: lerp(a, b, (k as f64 + 0.5) / n as f64),
+                }));
+            }
+        }
+        out
+    }
+
     /// Whether any side gives parcels access.
     #[must_use]
     pub fn has_access(&self) -> bool {

@@ -286,29 +286,29 @@ fn winding_link(
 
 /// Places along a region's streets and exits.
 fn spots(network: &Network, region: &Region, components: &Components) -> Vec<Spot> {
-    let mut out = Vec::new();
-    for (ring, l) in region.loops.iter().enumerate() {
-        for edge in 0..l.points.len() {
-            let (a, b) = l.edge(edge);
-            let n = (dist(a, b) / SPACING).ceil().max(1.0) as usize;
-            for k in 0..n {
-                let at = crate::plane::lerp(a, b, (k as f64 + 0.5) / n as f64);
-                let (component, exit) = match l.sides[edge].kind {
-                    SideKind::Street => (components.of.get(&l.vertices[edge]).copied(), false),
-                    SideKind::Boundary => {
-                        (None, !network.restricted_exits || network.zones.covers(at))
-                    }
-                    SideKind::Element => continue,
-                };
-                let inward = crate::plane::left(crate::plane::unit(b - a));
-                out.push(Spot {
-                    place: Place { ring, edge, at },
-                    inward,
-                    component,
-                    exit,
-                });
-            }
-        }
-    }
-    out
+    region
+        .places(SPACING)
+        .into_iter()
+        .filter_map(|place| {
+            let l = &region.loops[place.ring];
+            let (component, exit) = match l.sides[place.edge].kind {
+                SideKind::Street => {
+                    let component = components.of.get(&l.vertices[place.edge]);
+                    (component.copied(), false)
+                }
+                SideKind::Boundary => {
+                    let exit = !network.restricted_exits || network.zones.covers(place.at);
+                    (None, exit)
+                }
+                SideKind::Element => return None,
+            };
+            let (a, b) = l.edge(place.edge);
+            Some(Spot {
+                place,
+                inward: crate::plane::left(crate::plane::unit(b - a)),
+                component,
+                exit,
+            })
+        })
+        .collect()
 }

@@ -10,7 +10,7 @@ use geo_types::Coord;
 
 use crate::layout::Lineage;
 use crate::network::SideKind;
-use crate::plane::{dist, length, lerp, resample};
+use crate::plane::{dist, length, resample};
 use crate::region::{Place, Region};
 use crate::segments::SegmentGrid;
 use crate::splitter::{Action, Cut, CutMaker, Path2, Proposal, Scene, Service, Splitter, Ways};
@@ -78,22 +78,12 @@ impl Splitter for ReachSplitter {
 
 /// Places along the sides of a kind, evenly spaced.
 fn places(region: &Region, wanted: impl Fn(SideKind, bool) -> bool) -> Vec<Place> {
-    let mut out = Vec::new();
-    for (ring, l) in region.loops.iter().enumerate() {
-        for edge in 0..l.points.len() {
-            if !wanted(l.sides[edge].kind, l.sides[edge].access) {
-                continue;
-            }
-            let (a, b) = l.edge(edge);
-            let n = (dist(a, b) / SPACING).ceil().max(1.0) as usize;
-            out.extend((0..n).map(|k| Place {
-                ring,
-                edge,
-                at: lerp(a, b, (k as f64 + 0.5) / n as f64),
-            }));
-        }
-    }
-    out
+    let mut all = region.places(SPACING);
+    all.retain(|p| {
+        let side = region.loops[p.ring].sides[p.edge];
+        wanted(side.kind, side.access)
+    });
+    all
 }
 
 /// Ends beside land out of reach: the one farthest from all starts, then each
