@@ -17,7 +17,7 @@ pub fn config(cases: u32) -> Config {
     let long = std::env::var_os("URBAN_LAYOUT_LONG").is_some_and(|v| v == "1");
     Config {
         failure_persistence: None,
-        ..Config::with_cases(if long { cases * 40 } else { cases })
+        ..Config::with_cases(if long { (cases * 40).max(1000) } else { cases })
     }
 }
 
