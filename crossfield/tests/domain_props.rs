@@ -220,7 +220,13 @@ proptest! {
 
 #[test]
 fn equal_input_gives_the_same_mesh_and_other_options_another() {
-    let shape = crossfield::geo_types::polygon![(x: 0., y: 0.), (x: 60., y: 5.), (x: 50., y: 40.), (x: 8., y: 33.)];
+    let shape = shapes::shape(&[
+        (0.0, 0.0),
+        (60.0, 5.0),
+        (50.0, 40.0),
+        (8.0, 33.0),
+        (0.0, 0.0),
+    ]);
     let of = |edge_length: f64| {
         let options = DomainOptions {
             edge_length,
