@@ -9,6 +9,7 @@ mod error;
 mod field;
 mod random;
 mod score;
+mod smooth;
 mod streamline;
 mod trace;
 mod vector;

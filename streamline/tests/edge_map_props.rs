@@ -43,14 +43,14 @@ fn mesh(shake: &[(f64, f64)], flip: &[bool], hole: bool) -> (Vec<P>, Vec<[usize;
         })
         .collect();
     let mut triangles = Vec::new();
-    for c in 0..CELLS * CELLS {
+    for (c, &flipped) in flip.iter().enumerate() {
         let (i, j) = (c % CELLS, c / CELLS);
         if hole && (5..7).contains(&i) && (4..6).contains(&j) {
             continue;
         }
         let (a, b) = (j * side + i, j * side + i + 1);
         let (d, e) = (a + side, b + side);
-        triangles.extend(if flip[c] {
+        triangles.extend(if flipped {
             [[a, b, d], [b, e, d]]
         } else {
             [[a, b, e], [a, e, d]]
@@ -178,7 +178,6 @@ proptest! {
     fn no_merging(field in field()) {
         let options = EdgeOptions { max_length: 1500.0, self_approach: 0.0, loop_tolerance: 0.0, ..EdgeOptions::default() };
         let mut between: BTreeMap<[[usize; 2]; 2], Vec<(P, P)>> = BTreeMap::new();
-        let mut ends = Vec::new();
         for EdgeLine { line, edges } in lines(&field, &options) {
             let stops = [line.start, line.end].iter().filter(|&&s| s == Stop::LengthLimit).count();
             // Without the seed, the points are those on edges, and the cut ends.
@@ -193,7 +192,6 @@ proptest! {
                 let (key, pair) = if e[0] < e[1] { ([e[0], e[1]], (p[0], p[1])) } else { ([e[1], e[0]], (p[1], p[0])) };
                 between.entry(key).or_default().push(pair);
             }
-            ends.push((line.seed, points));
         }
         for pairs in between.values() {
             for (i, &(a, b)) in pairs.iter().enumerate() {
@@ -204,6 +202,37 @@ proptest! {
                         let gaps = [cross(u, c - a) / norm(u), cross(u, d - a) / norm(u)];
                         prop_assert!((gaps[0] - gaps[1]).abs() < 4.0 * BLUR, "{gaps:?}");
                     }
+                }
+            }
+        }
+    }
+
+    /// Lines run on across every edge: the pieces before and after it go along
+    /// one arm of the cross at its ends. Were both sides to lead into an edge,
+    /// lines would merge there, or turn back.
+    #[test]
+    fn no_turning_back(field in field()) {
+        let options = EdgeOptions { max_length: 1500.0, self_approach: 0.0, loop_tolerance: 0.0, ..EdgeOptions::default() };
+        for EdgeLine { line, edges } in lines(&field, &options) {
+            let points: Vec<P> = line.points.iter().copied().filter(|&p| p != line.seed).collect();
+            let first = usize::from(line.start == Stop::LengthLimit);
+            if points.len() != edges.len() + first + usize::from(line.end == Stop::LengthLimit) {
+                continue; // through a vertex, where points coincide
+            }
+            let inner = edges.iter().enumerate().take(edges.len() - 1).skip(1);
+            for (i, ends) in inner {
+                let p = &points[i + first - 1..=i + first + 1];
+                let (before, after) = (p[1] - p[0], p[2] - p[1]);
+                if norm(before) < 1e-3 || norm(after) < 1e-3 {
+                    continue; // of no direction but rounding
+                }
+                for &v in ends.iter().filter(|&&v| v < field.points().len()) {
+                    let angle = 0.25 * field.vectors()[v].y.atan2(field.vectors()[v].x);
+                    let along = (0..4).map(|k| angle + k as f64 * PI / 2.0).any(|u| {
+                        let arm = coord! { x: u.cos(), y: u.sin() };
+                        dot(arm, before) > 0.0 && dot(arm, after) > 0.0
+                    });
+                    prop_assert!(along, "{p:?}");
                 }
             }
         }

