@@ -2,6 +2,7 @@
 
 mod lanes;
 mod options;
+mod passed;
 mod walk;
 
 pub use options::EdgeOptions;
@@ -14,7 +15,8 @@ use crate::streamline::Streamline;
 use crate::vector::{cross, dot, is_finite, norm, unit, Point};
 use geo_types::Coord;
 use lanes::Lanes;
-use walk::{Passed, Start};
+use passed::Passed;
+use walk::Start;
 
 /// A [`TriangleField`] prepared for lines that can neither merge nor cross at
 /// less than 45 degrees, one another or themselves.
@@ -193,7 +195,7 @@ impl<'a> EdgeMaps<'a> {
         let (triangle, arm) = self
             .enter(seed, heading)
             .ok_or_else(|| TraceError::no_direction(seed))?;
-        let mut passed = Passed::new();
+        let mut passed = Passed::default();
         let start = |arm| Start {
             seed,
             triangle,
@@ -246,13 +248,9 @@ impl<'a> EdgeMaps<'a> {
         let triangle = parts
             .into_iter()
             .max_by(|a, b| depth(a).total_cmp(&depth(b)).then(b.cmp(a)))?;
-        let lanes = self.lanes.of[triangle].as_ref()?;
-        let along = |arm: usize| lanes[arm % 2].along * if arm < 2 { 1.0 } else { -1.0 };
-        let arm = (0..4).max_by(|&a, &b| {
-            dot(along(a), heading)
-                .total_cmp(&dot(along(b), heading))
-                .then(b.cmp(&a))
-        })?;
+        self.lanes.of[triangle].as_ref()?;
+        let ahead = |arm: usize| dot(self.along(triangle, arm), heading);
+        let arm = (0..4).max_by(|&a, &b| ahead(a).total_cmp(&ahead(b)).then(b.cmp(&a)))?;
         Some((triangle, arm))
     }
 }

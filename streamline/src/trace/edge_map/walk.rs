@@ -1,10 +1,10 @@
 //! One half of a line: from edge to edge until something stops it.
 
+use super::passed::Passed;
 use super::{EdgeMaps, EdgeOptions};
 use crate::field::mesh::NONE;
 use crate::trace::Stop;
 use crate::vector::{cross, dot, norm, Point};
-use std::collections::HashMap;
 
 /// Most edges that a half crosses: bounds the work where lines cross ever more
 /// edges without gaining length.
@@ -33,9 +33,6 @@ pub(super) struct Half {
     pub(super) stop: Stop,
 }
 
-/// Where a line has met edges, by edge and family: looked up by key only.
-pub(super) type Passed = HashMap<(usize, usize), Vec<f64>>;
-
 impl EdgeMaps<'_> {
     /// Walks from the start to where the line of its arm ends. Ends: each edge
     /// adds length or brings the line around a vertex, in one direction only,
@@ -53,6 +50,8 @@ impl EdgeMaps<'_> {
         };
         let (mut from, mut gone) = (start.seed, 0.0);
         let (mut triangle, mut arm) = (start.triangle, start.arm);
+        let mut along = self.along(triangle, arm);
+        passed.restart();
         for _ in 0..MOST {
             let to = self.point(place);
             let piece = norm(to - from);
@@ -86,6 +85,11 @@ impl EdgeMaps<'_> {
                     break;
                 }
             }
+            if options.self_approach > 0.0 {
+                let next = self.along(triangle, arm);
+                passed.turn(along, next);
+                along = next;
+            }
             let local = mesh.local(triangle, place.edge);
             let (out, t) = lanes[arm % 2].across(local, self.turned(triangle, local, place.t));
             place = Place {
@@ -110,6 +114,14 @@ impl EdgeMaps<'_> {
         Some(Place {
             edge: self.mesh.edges_of[start.triangle][local],
             t: self.turned(start.triangle, local, t),
+        })
+    }
+
+    /// The direction of an arm in a triangle; zero where that is blocked.
+    pub(super) fn along(&self, triangle: usize, arm: usize) -> Point {
+        let lanes = self.lanes.of[triangle].as_ref();
+        lanes.map_or(Point::zero(), |lanes| {
+            lanes[arm % 2].along * if arm < 2 { 1.0 } else { -1.0 }
         })
     }
 
@@ -167,12 +179,10 @@ impl EdgeMaps<'_> {
             // How far apart two lines are that meet the edge at a slant.
             let lane = self.lanes.of[triangle].as_ref()?[arm % 2].along;
             let apart = cross(along, lane).abs();
-            let before = passed.entry((place.edge, on_left % 2)).or_default();
-            let near = |&t: &f64| (t - place.t).abs() * apart <= options.self_approach;
-            if before.iter().any(near) {
+            let near = |t: f64| (t - place.t).abs() * apart <= options.self_approach;
+            if passed.meets((place.edge, on_left % 2), place.t, near) {
                 return Some(Stop::SelfApproach);
             }
-            before.push(place.t);
         }
         None
     }
