@@ -102,7 +102,8 @@ pub struct EdgeLine {
     /// The line: its points are where it meets edges, and its seed.
     pub line: Streamline,
     /// The edges it meets, from start to end, each by its two vertices, the
-    /// lower first. Indices from the number of the field's points on stand for
+    /// lower first: one a point, but for the seed and for ends within a
+    /// triangle; through a vertex several share a point. Indices from the number of the field's points on stand for
     /// the singular points within triangles.
     pub edges: Vec<[usize; 2]>,
 }

@@ -13,6 +13,8 @@ pub struct EdgeOptions {
     /// A line that meets an edge of the mesh this near to where it met it
     /// before, with the same pair of arms, stops there; 0 switches the test
     /// off, and a line may then wind onto a closed one until its length ends it.
+    /// Only the edge itself is looked at: over triangles smaller than this a
+    /// line may come as near to itself as they are large.
     ///
     /// Default value: 4.5 m, as in [`TraceOptions`](crate::TraceOptions).
     pub self_approach: f64,
