@@ -9,6 +9,7 @@ mod error;
 mod field;
 mod random;
 mod score;
+mod smooth;
 mod streamline;
 mod trace;
 mod vector;
@@ -17,10 +18,12 @@ pub use geo_types;
 
 pub use candidates::{candidates, survey, CandidateOptions, Discarded, Seed, Survey, Unfit};
 pub use error::TraceError;
-pub use field::{arm_nearest, from_fn, Cursor, DirectionField, Exit, FromFn};
+pub use field::{
+    arm_nearest, from_fn, Cursor, DirectionField, Exit, FromFn, MeshError, TriangleField,
+};
 pub use score::{
     choose, distinct, rank, BoundaryDistance, BoundaryMeasure, BoundaryOptions, Continuity,
     Divergence, Ranked, Score, SingularityDistance, WidthTable,
 };
 pub use streamline::{Sample, Streamline};
-pub use trace::{trace, Stop, TraceOptions};
+pub use trace::{trace, EdgeLine, EdgeMaps, EdgeOptions, Stop, TraceOptions};

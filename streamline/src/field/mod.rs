@@ -2,8 +2,12 @@
 
 mod edges;
 mod formula;
+pub(crate) mod mesh;
+mod triangles;
 
 pub use formula::{from_fn, FromFn};
+pub use mesh::MeshError;
+pub use triangles::TriangleField;
 
 use crate::vector::{left, turn};
 use geo_types::Coord;

@@ -1,11 +1,13 @@
 //! Tracing one streamline both ways from its seed.
 
 pub(crate) mod adaptive;
+mod edge_map;
 mod march;
 mod options;
 mod stop;
 mod track;
 
+pub use edge_map::{EdgeLine, EdgeMaps, EdgeOptions};
 pub use options::TraceOptions;
 pub use stop::Stop;
 
