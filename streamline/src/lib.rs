@@ -9,7 +9,9 @@ mod error;
 mod field;
 mod random;
 mod score;
+mod separatrix;
 mod streamline;
+mod tiles;
 mod trace;
 mod vector;
 
@@ -22,5 +24,9 @@ pub use score::{
     choose, distinct, rank, BoundaryDistance, BoundaryMeasure, BoundaryOptions, Continuity,
     Divergence, Ranked, Score, SingularityDistance, WidthTable,
 };
+pub use separatrix::{
+    separatrices, separatrix_arms, Separatrix, SeparatrixEnd, SeparatrixOptions, Singularity,
+};
 pub use streamline::{Sample, Streamline};
+pub use tiles::{tiles, HalfEdge, Tile, TileEdge, TileOptions, Tiling};
 pub use trace::{trace, Stop, TraceOptions};
