@@ -28,5 +28,5 @@ pub use separatrix::{
     separatrices, separatrix_arms, Separatrix, SeparatrixEnd, SeparatrixOptions, Singularity,
 };
 pub use streamline::{Sample, Streamline};
-pub use tiles::{tiles, HalfEdge, Tile, TileEdge, TileOptions, Tiling};
+pub use tiles::{tiles, Dangling, HalfEdge, Tile, TileEdge, TileOptions, Tiling};
 pub use trace::{trace, Stop, TraceOptions};

@@ -8,8 +8,8 @@ use geo_types::{coord, polygon, Polygon};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use streamline::{
-    arm_nearest, from_fn, separatrices, separatrix_arms, tiles, DirectionField, Separatrix,
-    SeparatrixEnd, SeparatrixOptions, Singularity, TileOptions, TraceError,
+    arm_nearest, from_fn, separatrices, separatrix_arms, tiles, Dangling, DirectionField,
+    Separatrix, SeparatrixEnd, SeparatrixOptions, Singularity, TileOptions, TraceError,
 };
 use support::*;
 
@@ -163,7 +163,7 @@ proptest! {
         }
         let strings: Vec<_> = lines.iter().map(Separatrix::to_line_string).collect();
         let tiling = tiles(&land, &strings, &TileOptions::default()).unwrap();
-        let kept = tiles(&land, &strings, &TileOptions { keep_dangling: true, ..TileOptions::default() }).unwrap();
+        let kept = tiles(&land, &strings, &TileOptions { dangling: Dangling::Keep, ..TileOptions::default() }).unwrap();
         let sum: f64 = tiling.tiles.iter().map(|t| t.area).sum();
         // Vertices move by 2e-9 m along 960 m of boundary, of 57600 m2.
         prop_assert!((sum - 57_600.0).abs() < 1e-5);

@@ -29,7 +29,7 @@ pub(super) struct Faces {
 pub(super) type Ends = (usize, usize);
 
 fn tail(edges: &[Ends], h: usize) -> usize {
-    if h % 2 == 0 {
+    if h & 1 == 0 {
         edges[h / 2].0
     } else {
         edges[h / 2].1

@@ -182,8 +182,8 @@ mod tests {
                 source: Source::Line(0),
             },
         ];
-        let lines = [1..2];
-        // The foot of (50, 3) on the wall is at (50.025, 0.500): node (50, 1).
+        let lines = [0..0, 1..2]; // the first line was cut off wholly
+                                  // The foot of (50, 3) on the wall is at (50.025, 0.500): node (50, 1).
         let joined = join(&raw, &lines, 4.0);
         let spans: Vec<_> = joined.iter().map(|s| (s.from, s.to)).collect();
         assert_eq!(

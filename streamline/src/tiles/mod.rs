@@ -26,20 +26,34 @@ pub struct TileOptions {
     ///
     /// Default value: 0.001 m.
     pub snap: f64,
-    /// Whether to keep what has the same tile on both sides: ends of lines that
-    /// stop in the open, lines that touch nothing, a single line from a hole
-    /// to the boundary. Their edges then occur twice in the rings of that tile,
-    /// once each way. What is pruned leaves the vertices it had on other edges.
+    /// What to do with pieces of lines that have the same tile on both sides.
     ///
-    /// Default value: false.
-    pub keep_dangling: bool,
+    /// Default value: [`Dangling::Prune`].
+    pub dangling: Dangling,
+}
+
+/// What becomes of pieces that do not divide. Where they are kept, their edges
+/// occur twice in the rings of their tile, once each way; where they are not,
+/// the vertices that they had on other edges stay.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Dangling {
+    /// All are removed: every inner edge has two different tiles.
+    #[default]
+    Prune,
+    /// Loose ends and lines that touch nothing are removed; bridges stay, as a
+    /// single line from a hole to the exterior, which makes a tile around the
+    /// hole simply connected.
+    Bridges,
+    /// All are kept.
+    Keep,
 }
 
 impl Default for TileOptions {
     fn default() -> Self {
         Self {
             snap: 1e-3,
-            keep_dangling: false,
+            dangling: Dangling::Prune,
         }
     }
 }
@@ -117,7 +131,7 @@ pub fn tiles(
     let (raw, ranges) = gather(&grid, domain, lines)?;
     let pieces = snap(&join(&raw, &ranges, options.snap / grid.spacing));
     let (nodes, mut edges) = graph(&pieces);
-    if !options.keep_dangling {
+    if options.dangling != Dangling::Keep {
         prune_trees(nodes.len(), &mut edges);
     }
     loop {
@@ -130,7 +144,7 @@ pub fn tiles(
             .map(|e| {
                 let (left, right) = (faces.left[2 * e], faces.left[2 * e + 1]);
                 let outside = !inside[left] && !inside[right];
-                outside || (left == right && !options.keep_dangling)
+                outside || (left == right && options.dangling == Dangling::Prune)
             })
             .collect();
         if !idle.contains(&true) {
@@ -288,9 +302,9 @@ mod tests {
         )
     }
 
-    fn cut(lines: &[LineString<f64>], keep_dangling: bool) -> Tiling {
+    fn cut(lines: &[LineString<f64>], dangling: Dangling) -> Tiling {
         let options = TileOptions {
-            keep_dangling,
+            dangling,
             ..TileOptions::default()
         };
         tiles(&yard(), lines, &options).unwrap()
@@ -298,7 +312,7 @@ mod tests {
 
     #[test]
     fn without_lines_the_domain_is_the_tile() {
-        let tiling = cut(&[], false);
+        let tiling = cut(&[], Dangling::Prune);
         assert_eq!(tiling.tiles.len(), 1);
         assert_eq!(tiling.tiles[0].area, 9600.0);
         assert_eq!(tiling.tiles[0].rings.len(), 2);
@@ -315,11 +329,15 @@ mod tests {
             line_string![(x: 10., y: 10.), (x: 20., y: 20.), (x: 20., y: 30.)],
             line_string![(x: 0., y: 80.), (x: 30., y: 80.)],
         ];
-        let pruned = cut(&lines, false);
+        let pruned = cut(&lines, Dangling::Prune);
         assert_eq!(pruned.tiles.len(), 1);
         // Where pruned lines met the boundary their vertices stay.
         assert_eq!(pruned.edges.len(), 8 + 3);
-        let kept = cut(&lines, true);
+        let bridged = cut(&lines, Dangling::Bridges);
+        assert_eq!(bridged.tiles[0].rings.len(), 1);
+        assert_eq!(bridged.edges.len(), 8 + 3 + 1);
+        assert_eq!(bridged.lines(0), [0]);
+        let kept = cut(&lines, Dangling::Keep);
         assert_eq!(kept.tiles.len(), 1);
         assert_eq!(kept.tiles[0].area, 9600.0);
         // The line from the hole makes one ring of the two; the loose line is
@@ -333,7 +351,10 @@ mod tests {
 
     #[test]
     fn lines_leave_the_domain_and_return() {
-        let tiling = cut(&[line_string![(x: -50., y: 50.), (x: 300., y: 50.)]], false);
+        let tiling = cut(
+            &[line_string![(x: -50., y: 50.), (x: 300., y: 50.)]],
+            Dangling::Prune,
+        );
         assert_eq!(tiling.tiles.len(), 2);
         assert_eq!(tiling.tiles[0].area, 4800.0);
         assert_eq!(tiling.neighbours(0), [1]);
@@ -348,7 +369,10 @@ mod tests {
 
     #[test]
     fn a_line_along_the_boundary_bounds_without_dividing() {
-        let tiling = cut(&[line_string![(x: 20., y: 0.), (x: 70., y: 0.)]], false);
+        let tiling = cut(
+            &[line_string![(x: 20., y: 0.), (x: 70., y: 0.)]],
+            Dangling::Prune,
+        );
         assert_eq!(tiling.tiles.len(), 1);
         let along: Vec<_> = tiling.edges.iter().filter(|e| e.lines == [0]).collect();
         assert_eq!(along.len(), 1);
@@ -358,7 +382,12 @@ mod tests {
     #[test]
     fn an_end_just_short_of_its_goal_is_joined() {
         let short = line_string![(x: 0.0005, y: 20.), (x: 99.9995, y: 20.)];
-        assert_eq!(cut(&[short.clone()], false).tiles.len(), 2);
+        assert_eq!(
+            cut(std::slice::from_ref(&short), Dangling::Prune)
+                .tiles
+                .len(),
+            2
+        );
         let options = TileOptions {
             snap: 0.0,
             ..TileOptions::default()

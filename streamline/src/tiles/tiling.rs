@@ -14,7 +14,7 @@ pub struct TileEdge {
     pub vertices: [usize; 2],
     /// The tile to the left of the way from the first vertex to the second, and
     /// that to the right; `None` outside the domain. The same twice for an edge
-    /// that does not divide ([`TileOptions::keep_dangling`](crate::TileOptions)).
+    /// that does not divide ([`Dangling`](crate::Dangling)).
     pub tiles: [Option<usize>; 2],
     /// The lines that run along it, by their positions in the input, ascending.
     pub lines: Vec<usize>,
@@ -207,7 +207,7 @@ pub(super) fn build(
 fn turned(cycle: &[usize], nodes: &[Node], edges: &[Edge]) -> Vec<HalfEdge> {
     let tail = |h: usize| {
         let ends = edges[h / 2].ends;
-        nodes[if h % 2 == 0 { ends.0 } else { ends.1 }]
+        nodes[if h & 1 == 0 { ends.0 } else { ends.1 }]
     };
     let first = (0..cycle.len())
         .min_by_key(|&i| (tail(cycle[i]), cycle[i]))
