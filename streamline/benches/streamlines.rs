@@ -5,12 +5,12 @@
 //! solved cross field looks like to the tracer.
 
 use criterion::{criterion_group, criterion_main, BenchmarkId, Criterion, Throughput};
-use geo_types::{coord, polygon, Coord, Polygon};
+use geo_types::{coord, polygon, Coord, LineString, Polygon};
 use std::hint::black_box;
 use streamline::{
-    arm_nearest, candidates, from_fn, rank, trace, BoundaryDistance, BoundaryOptions,
+    arm_nearest, candidates, from_fn, rank, tiles, trace, BoundaryDistance, BoundaryOptions,
     CandidateOptions, Continuity, Cursor, DirectionField, Divergence, Exit, Score, Seed,
-    SingularityDistance, TraceOptions, WidthTable,
+    SingularityDistance, TileOptions, TraceOptions, WidthTable,
 };
 
 fn angle(at: Coord<f64>) -> f64 {
@@ -182,5 +182,43 @@ fn bench_rank(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, bench_trace, bench_candidates, bench_rank);
+/// The tiles between two crossed families of lines.
+fn bench_tiles(c: &mut Criterion) {
+    let mut group = c.benchmark_group("tiles");
+    group.sample_size(10);
+    for (km2, half) in [(1, 500.0), (10, 1581.0)] {
+        // Crossed families of waves, 30 m apart: pieces in proportion to area.
+        let count = (2.0 * half / 30.0) as usize;
+        let steps = (2.0 * half / 5.0) as usize;
+        let line = |i: usize, flip: bool| {
+            let points = (0..=steps).map(|j| {
+                let u = 2.2 * half * j as f64 / steps as f64 - 1.1 * half;
+                let v = 30.0 * i as f64 - half + 12.0 * (u / 70.0 + i as f64).sin() + 7.0;
+                if flip {
+                    coord! { x: v, y: u }
+                } else {
+                    coord! { x: u, y: v }
+                }
+            });
+            LineString(points.collect())
+        };
+        let lines: Vec<_> = (0..count)
+            .flat_map(|i| [line(i, false), line(i, true)])
+            .collect();
+        let land = square(half);
+        group.throughput(Throughput::Elements((lines.len() * steps) as u64));
+        group.bench_function(format!("{km2} km2"), |b| {
+            b.iter(|| tiles(black_box(&land), &lines, &TileOptions::default()))
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(
+    benches,
+    bench_trace,
+    bench_candidates,
+    bench_rank,
+    bench_tiles
+);
 criterion_main!(benches);

@@ -51,6 +51,47 @@ pub enum TraceError {
         /// North coordinate of the seed.
         y: f64,
     },
+    /// The field does not leave a singularity along as many arms as its index
+    /// calls for.
+    #[error("singularity {index} at ({x}, {y}) should have {expected} arms, but {found} were found: correct its index or its place")]
+    NoArms {
+        /// Position in the list of singularities.
+        index: usize,
+        /// East coordinate as given.
+        x: f64,
+        /// North coordinate as given.
+        y: f64,
+        /// 4 less the quarters of its index.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// A line given to [`tiles`](crate::tiles) has a coordinate that is NaN,
+    /// infinite or beyond 1e100.
+    #[error("line {index} has a point ({x}, {y}), which is not finite or beyond 1e100: drop or repair the line")]
+    LineNotFinite {
+        /// Position in the list of lines.
+        index: usize,
+        /// East coordinate as given.
+        x: f64,
+        /// North coordinate as given.
+        y: f64,
+    },
+    /// The domain has a coordinate that is NaN, infinite or beyond 1e100.
+    #[error("ring {ring} of the domain has a vertex ({x}, {y}), which is not finite or beyond 1e100: repair the domain")]
+    DomainNotFinite {
+        /// The ring: 0 is the exterior, then the interiors in their order.
+        ring: usize,
+        /// East coordinate as given.
+        x: f64,
+        /// North coordinate as given.
+        y: f64,
+    },
+    /// The domain has no vertices, or no extent in one direction.
+    #[error(
+        "the domain has no area: give a polygon with at least three vertices that are not in line"
+    )]
+    DomainWithoutArea,
 }
 
 impl TraceError {

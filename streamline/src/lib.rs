@@ -9,8 +9,10 @@ mod error;
 mod field;
 mod random;
 mod score;
+mod separatrix;
 mod smooth;
 mod streamline;
+mod tiles;
 mod trace;
 mod vector;
 
@@ -25,5 +27,9 @@ pub use score::{
     choose, distinct, rank, BoundaryDistance, BoundaryMeasure, BoundaryOptions, Continuity,
     Divergence, Ranked, Score, SingularityDistance, WidthTable,
 };
+pub use separatrix::{
+    separatrices, separatrix_arms, Separatrix, SeparatrixEnd, SeparatrixOptions, Singularity,
+};
 pub use streamline::{Sample, Streamline};
+pub use tiles::{tiles, Dangling, HalfEdge, Tile, TileEdge, TileOptions, Tiling};
 pub use trace::{trace, EdgeLine, EdgeMaps, EdgeOptions, Stop, TraceOptions};

@@ -137,3 +137,21 @@ pub(crate) fn trace_valid<F: DirectionField + ?Sized>(
         seed_index: 0,
     })
 }
+
+/// One half of a streamline: the points after `seed` along the unit vector
+/// `along`, where the field points, and why they end. Options must be valid.
+pub(crate) fn trace_ahead<F: DirectionField + ?Sized>(
+    field: &F,
+    seed: Coord<f64>,
+    along: Coord<f64>,
+    options: &TraceOptions,
+) -> (Vec<Coord<f64>>, Stop) {
+    let march = March {
+        field,
+        options,
+        seed,
+    };
+    let mut track = Track::new(seed, options.self_approach, options.step);
+    let half = march.run(along, 1.0, &mut track);
+    (half.points, half.stop)
+}
