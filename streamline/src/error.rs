@@ -51,6 +51,18 @@ pub enum TraceError {
         /// North coordinate of the seed.
         y: f64,
     },
+    /// The scale of the separation is no positive number at a seed.
+    #[error("the scale of the separation is {value} at seed {index}, ({x}, {y}): it must be positive and finite")]
+    BadScale {
+        /// Position in the list of seeds.
+        index: usize,
+        /// East coordinate of the seed.
+        x: f64,
+        /// North coordinate of the seed.
+        y: f64,
+        /// What the function answered.
+        value: f64,
+    },
 }
 
 impl TraceError {

@@ -7,6 +7,7 @@
 mod candidates;
 mod error;
 mod field;
+mod placement;
 mod random;
 mod score;
 mod streamline;
@@ -18,6 +19,7 @@ pub use geo_types;
 pub use candidates::{candidates, survey, CandidateOptions, Discarded, Seed, Survey, Unfit};
 pub use error::TraceError;
 pub use field::{arm_nearest, from_fn, Cursor, DirectionField, Exit, FromFn};
+pub use placement::{lattice, place, place_scaled, Ends, PlacementOptions, Strategy};
 pub use score::{
     choose, distinct, rank, BoundaryDistance, BoundaryMeasure, BoundaryOptions, Continuity,
     Divergence, Ranked, Score, SingularityDistance, WidthTable,
