@@ -13,10 +13,12 @@ use streamline::{
 
 const SEPARATION: f64 = 20.0;
 
-/// Turns through about 100 degrees, gathers and spreads.
-fn direction(at: Coord<f64>) -> Coord<f64> {
-    let angle =
-        0.3 + 0.5 * (at.x / 130.0 + at.y / 410.0).sin() + 0.4 * (at.y / 170.0 - at.x / 600.0).cos();
+/// Gathers and spreads; the more, the larger `strength`.
+fn direction(at: Coord<f64>, strength: f64) -> Coord<f64> {
+    let angle = 0.3
+        + strength
+            * (0.5 * (at.x / 130.0 + at.y / 410.0).sin()
+                + 0.4 * (at.y / 170.0 - at.x / 600.0).cos());
     coord! { x: angle.cos(), y: angle.sin() }
 }
 
@@ -60,10 +62,13 @@ fn spacing(lines: &[Streamline]) -> Vec<f64> {
 }
 
 /// Mean angle between pieces and the field at their middles, in degrees.
-fn tangent_error(lines: &[Streamline]) -> f64 {
+fn tangent_error(lines: &[Streamline], strength: f64) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for pair in lines.iter().flat_map(|line| line.points.windows(2)) {
-        let (e, d) = (pair[1] - pair[0], direction((pair[0] + pair[1]) / 2.0));
+        let (e, d) = (
+            pair[1] - pair[0],
+            direction((pair[0] + pair[1]) / 2.0, strength),
+        );
         sum += (e.x * d.y - e.y * d.x)
             .atan2(e.x * d.x + e.y * d.y)
             .abs()
@@ -74,8 +79,16 @@ fn tangent_error(lines: &[Streamline]) -> f64 {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
+    for strength in [1.0, 0.25] {
+        println!("strength {strength}");
+        table(strength)?;
+    }
+    Ok(())
+}
+
+fn table(strength: f64) -> Result<(), Box<dyn std::error::Error>> {
     let square = polygon![(x: -500., y: -500.), (x: 500., y: -500.), (x: 500., y: 500.), (x: -500., y: 500.)];
-    let field = from_fn(square, |at, _| Some(direction(at)));
+    let field = from_fn(square, |at, _| Some(direction(at, strength)));
     let extent = Rect::new(coord! { x: -500., y: -500. }, coord! { x: 500., y: 500. });
     // A vector field has one family; a seed's second direction is never used.
     let seeds = lattice(&field, extent, 0.5 * SEPARATION)?;
@@ -102,7 +115,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         };
         let mut lines = Vec::new();
         let mut best = f64::INFINITY;
-        for _ in 0..1 {
+        for _ in 0..5 {
             let start = Instant::now();
             lines = place(&field, &seeds, &options)?;
             best = best.min(start.elapsed().as_secs_f64());
@@ -133,7 +146,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             percentile(0.5),
             percentile(0.99),
             farthest / SEPARATION,
-            tangent_error(&lines),
+            tangent_error(&lines, strength),
         );
     }
     Ok(())

@@ -18,9 +18,9 @@ pub(super) struct Chord {
     along: Point,
     half: f64,
     /// Which line.
-    pub(super) line: u32,
+    line: u32,
     /// Which family that line was started in.
-    pub(super) family: u8,
+    family: u8,
     /// Arc length of the middle from the line's seed, negative behind it.
     arc: f64,
 }
@@ -67,6 +67,8 @@ pub(super) struct Nearest {
     pub(super) distance: f64,
     /// Its line is the one that asks.
     pub(super) own: bool,
+    /// The family that its line was started in.
+    pub(super) family: u8,
 }
 
 /// Chords by the cell of their middle. Cells grow where the lines go; nothing
@@ -194,7 +196,7 @@ impl Chords {
         soon: bool,
     ) -> Option<Nearest> {
         let min_cosine = if soon { SOON } else { ALONGSIDE };
-        let mut best: Option<(f64, bool)> = None;
+        let mut best: Option<(f64, bool, u8)> = None;
         let mut limit = reach * reach;
         self.visit(p, reach, |chord| {
             if dot(chord.along, along).abs() <= min_cosine {
@@ -212,34 +214,16 @@ impl Chords {
                 is_own = true;
             }
             limit = square;
-            best = Some((square, is_own));
+            best = Some((square, is_own, chord.family));
         });
-        best.map(|(square, own)| Nearest {
+        best.map(|(square, own, family)| Nearest {
             distance: square.sqrt(),
             own,
+            family,
         })
     }
 
-    /// The chord nearest to `p` within `reach`, whatever its direction.
-    pub(super) fn nearest_any(&self, p: Point, reach: f64) -> Option<&Chord> {
-        let mut best: Option<(&Chord, f64)> = None;
-        let mut limit = reach * reach;
-        self.visit(p, reach, |chord| {
-            let (square, _) = chord.offset(p);
-            if square < limit {
-                limit = square;
-                best = Some((chord, square));
-            }
-        });
-        best.map(|(chord, _)| chord)
-    }
-
-    /// True if the chord runs within 45 degrees of `along`.
-    pub(super) fn alongside(chord: &Chord, along: Point) -> bool {
-        dot(chord.along, along).abs() > ALONGSIDE * norm(along)
-    }
-
-    fn visit<'a>(&'a self, p: Point, reach: f64, mut look: impl FnMut(&'a Chord)) {
+    fn visit(&self, p: Point, reach: f64, mut look: impl FnMut(&Chord)) {
         let wide = reach + self.longest_half;
         let span = |from: f64, low: f64, count: usize| {
             let first = ((from - wide - low) / self.cell).max(0.0) as usize;
@@ -330,6 +314,5 @@ mod tests {
         assert!(ask(point(1.0, 0.5), 100.0).unwrap().own);
         let crossing = chords.nearest(point(1.0, 1.0), point(0.0, 1.0), 10.0, None, true);
         assert!(crossing.is_none());
-        assert!(chords.nearest_any(point(1.0, 1.0), 10.0).is_some());
     }
 }

@@ -13,7 +13,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// Width of a cell of the grid, in separations.
-const CELL: f64 = 0.5;
+const CELL: f64 = 0.75;
 /// A line starts beside another one where no third is nearer than this, in
 /// separations (or than d_test, if that is more): less than 1, so that a gap
 /// that widens is filled before it is two separations wide.
@@ -82,18 +82,25 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
     }
 
     fn neighbours(&mut self, seeds: &[Seed]) {
-        let mut next = 0;
+        let (mut beside, mut across) = (0, 0);
         // From the middle outwards; then whatever was not reached, in order.
         for index in middle(seeds).into_iter().chain(0..seeds.len()) {
             for (family, heading) in self.families(&seeds[index]) {
                 self.start(seeds[index].at, heading, family, index, 1.0);
             }
-            while next < self.lines.len() {
-                let line = self.lines[next].clone();
-                for side in [Side::Beside(1.0), Side::Beside(-1.0), Side::Across] {
-                    self.sweep(&line, side);
+            // Across only when nothing is left to do beside: neighbours are
+            // exactly spaced, and rows of them begun far apart do not fit.
+            while across < self.lines.len() {
+                if beside < self.lines.len() {
+                    let line = self.lines[beside].clone();
+                    self.sweep(&line, Side::Beside(1.0));
+                    self.sweep(&line, Side::Beside(-1.0));
+                    beside += 1;
+                } else {
+                    let line = self.lines[across].clone();
+                    self.sweep(&line, Side::Across);
+                    across += 1;
                 }
-                next += 1;
             }
         }
     }
@@ -130,14 +137,16 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
     /// has them, for around singularities they change places.
     fn families(&self, seed: &Seed) -> [(u8, Point); 2] {
         let [first, second] = seed.directions;
-        let near = self
-            .chords
-            .nearest_any(seed.at, 2.0 * self.spacing.widest(seed.at));
-        let family = match near {
-            Some(chord) if Chords::alongside(chord, first) => chord.family,
-            Some(chord) => 1 - chord.family,
-            None => 0,
+        let reach = self.spacing.widest(seed.at);
+        let family_along = |way: Point| {
+            let near = self
+                .chords
+                .nearest(seed.at, unit(way)?, reach, None, false)?;
+            Some(near.family)
         };
+        let family = family_along(first)
+            .or_else(|| Some(1 - family_along(second)?))
+            .unwrap_or(0);
         [(family, first), (1 - family, second)]
     }
 

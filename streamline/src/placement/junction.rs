@@ -154,14 +154,19 @@ fn last_crossing(
                 continue;
             }
             let (c, d) = (lines[line].points[k], lines[line].points[k + 1]);
-            let Some((t, u)) = crossing(a, b, c, d) else {
+            // Always by the lower line: the same numbers whoever asks.
+            let Some((t, u, point)) = (if i < line {
+                crossing(a, b, c, d)
+            } else {
+                crossing(c, d, a, b).map(|(u, t, point)| (t, u, point))
+            }) else {
                 continue;
             };
             let found = Crossing {
                 here: piece as f64 + t,
                 line,
                 there: k as f64 + u,
-                point: c + (d - c) * u,
+                point,
             };
             // Not where it ends now: that crossing was lost.
             let inside = from <= found.here && found.here <= to;
@@ -184,8 +189,9 @@ fn last_crossing(
     None
 }
 
-/// Fractions along two pieces of the point where they cross, or touch.
-fn crossing(a: Point, b: Point, c: Point, d: Point) -> Option<(f64, f64)> {
+/// Fractions along two pieces of the point where they cross, or touch, and the
+/// point.
+fn crossing(a: Point, b: Point, c: Point, d: Point) -> Option<(f64, f64, Point)> {
     let (e, f) = (b - a, d - c);
     let area = cross(e, f);
     // Under 45 degrees two lines meet, rather than one end on the other.
@@ -194,7 +200,7 @@ fn crossing(a: Point, b: Point, c: Point, d: Point) -> Option<(f64, f64)> {
     }
     let (t, u) = (cross(c - a, f) / area, cross(c - a, e) / area);
     let inside = 0.0..=1.0;
-    (inside.contains(&t) && inside.contains(&u)).then_some((t, u))
+    (inside.contains(&t) && inside.contains(&u)).then_some((t, u, a + e * t))
 }
 
 /// The lines that are left, cut, each with a point where another ends on it.
