@@ -52,7 +52,9 @@ use spacing::Spacing;
 ///
 /// # Complexity
 ///
-/// Linear in the total length of the lines and in the number of seeds.
+/// Linear in the total length of the lines and in the number of seeds; with
+/// [`Strategy::Farthest`] times the logarithm of the latter, at several times the
+/// cost.
 ///
 /// # Errors
 ///
