@@ -217,7 +217,7 @@ fn rebuild(lines: Vec<Streamline>, parts: &[Part]) -> Vec<Streamline> {
         if part.gone {
             continue;
         }
-        // Junctions on this line, and its own ends.
+        // Junctions on this line.
         let mut stops: Vec<(Place, Point)> = Vec::new();
         for &(guest, side) in &part.guests {
             if let Some(held) = parts[guest].cut[side].filter(|held| held.line == i) {
@@ -228,7 +228,6 @@ fn rebuild(lines: Vec<Streamline>, parts: &[Part]) -> Vec<Streamline> {
         }
         for (end, held) in part.cut.iter().enumerate() {
             let Some(held) = held else { continue };
-            stops.push((held.here, held.point));
             let stop = Stop::Junction {
                 line: new_index[held.line],
             };
@@ -238,8 +237,9 @@ fn rebuild(lines: Vec<Streamline>, parts: &[Part]) -> Vec<Streamline> {
                 line.end = stop;
             }
         }
-        if !stops.is_empty() {
-            line.points = with_stops(&line.points, part.ends, stops);
+        let cut = part.cut.map(|held| held.map(|held| held.point));
+        if !stops.is_empty() || cut != [None, None] {
+            line.points = with_stops(&line.points, part.ends, cut, stops);
             let seed = line.seed;
             if !line.points.contains(&seed) {
                 let middle = line.points.len() / 2;
@@ -251,17 +251,41 @@ fn rebuild(lines: Vec<Streamline>, parts: &[Part]) -> Vec<Streamline> {
     left
 }
 
-/// The points from one end to the other, with further ones at `stops`.
-fn with_stops(points: &[Point], ends: [Place; 2], mut stops: Vec<(Place, Point)>) -> Vec<Point> {
+/// Vertices nearer to a stop than this share of a piece give way to it.
+const SAME: f64 = 1e-9;
+
+/// The points from one end to the other, with further ones at `stops`, the
+/// line's own cuts at the very ends.
+fn with_stops(
+    points: &[Point],
+    ends: [Place; 2],
+    cut: [Option<Point>; 2],
+    mut stops: Vec<(Place, Point)>,
+) -> Vec<Point> {
     stops.retain(|&(place, _)| ends[0] <= place && place <= ends[1]);
-    let all = points.iter().enumerate().map(|(k, &p)| (k as f64, p));
-    let mut merged: Vec<(Place, Point)> = all
-        .filter(|&(place, _)| ends[0] <= place && place <= ends[1])
+    stops.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let near = |place: Place| {
+        let next = stops.partition_point(|stop| stop.0 < place - SAME);
+        let at_stop = stops.get(next).is_some_and(|stop| stop.0 <= place + SAME);
+        let at_cut = [0, 1].map(|end| cut[end].is_some() && (place - ends[end]).abs() <= SAME);
+        at_stop || at_cut[0] || at_cut[1]
+    };
+    let last = points.len() - 1;
+    let mut merged: Vec<(Place, Point)> = (0..=last)
+        .filter(|&k| ends[0] <= k as f64 && k as f64 <= ends[1])
+        // An end on the boundary stays exactly there.
+        .filter(|&k| {
+            let whole = (k == 0 && cut[0].is_none()) || (k == last && cut[1].is_none());
+            whole || !near(k as f64)
+        })
+        .map(|k| (k as f64, points[k]))
         .collect();
     merged.append(&mut stops);
     merged.sort_by(|a, b| a.0.total_cmp(&b.0));
-    merged.dedup_by(|a, b| a.1 == b.1);
-    merged.into_iter().map(|(_, p)| p).collect()
+    let inner = merged.into_iter().map(|(_, p)| p);
+    let mut all: Vec<Point> = cut[0].into_iter().chain(inner).chain(cut[1]).collect();
+    all.dedup();
+    all
 }
 
 #[cfg(test)]
