@@ -73,9 +73,9 @@ use spacing::Spacing;
 /// let seeds = lattice(&grid, extent, 37.5)?;
 ///
 /// let lines = place(&grid, &seeds, &PlacementOptions::default())?;
-/// // From the middle outwards: six to the east, 75 m apart, and four to the
+/// // From the middle outwards: five to the east, 75 m apart, and four to the
 /// // north, 150 m apart.
-/// assert_eq!(lines.iter().filter(|l| l.family == 0).count(), 6);
+/// assert_eq!(lines.iter().filter(|l| l.family == 0).count(), 5);
 /// assert_eq!(lines.iter().filter(|l| l.family == 1).count(), 4);
 /// # Ok::<(), streamline::TraceError>(())
 /// ```
