@@ -92,6 +92,18 @@ pub enum TraceError {
         "the domain has no area: give a polygon with at least three vertices that are not in line"
     )]
     DomainWithoutArea,
+    /// The scale of the separation is no positive number at a seed.
+    #[error("the scale of the separation is {value} at seed {index}, ({x}, {y}): it must be positive and finite")]
+    BadScale {
+        /// Position in the list of seeds.
+        index: usize,
+        /// East coordinate of the seed.
+        x: f64,
+        /// North coordinate of the seed.
+        y: f64,
+        /// What the function answered.
+        value: f64,
+    },
 }
 
 impl TraceError {

@@ -7,6 +7,7 @@
 mod candidates;
 mod error;
 mod field;
+mod placement;
 mod random;
 mod score;
 mod separatrix;
@@ -23,6 +24,7 @@ pub use error::TraceError;
 pub use field::{
     arm_nearest, from_fn, Cursor, DirectionField, Exit, FromFn, MeshError, TriangleField,
 };
+pub use placement::{lattice, place, place_scaled, Ends, PlacementOptions, Strategy};
 pub use score::{
     choose, distinct, rank, BoundaryDistance, BoundaryMeasure, BoundaryOptions, Continuity,
     Divergence, Ranked, Score, SingularityDistance, WidthTable,

@@ -41,12 +41,16 @@ struct State {
 
 impl<F: DirectionField + ?Sized> March<'_, F> {
     /// Marches from the seed along the unit vector `along`; `sign` is 1
-    /// forwards, -1 backwards.
+    /// forwards, -1 backwards. A watchman is shown each new point after the one
+    /// before it; where it names a reason, the half ends at the latter.
     ///
     /// Ends: an iteration either advances by its step or shrinks the next one,
     /// down to the least step, below which the march stops; and the length is
     /// bounded.
-    pub(crate) fn run(&self, along: Point, sign: f64, track: &mut Track) -> Half {
+    pub(crate) fn run<W>(&self, along: Point, sign: f64, track: &mut Track, watch: &mut W) -> Half
+    where
+        W: FnMut(Point, Point) -> Option<Stop>,
+    {
         let options = self.options;
         let (min_step, min_cosine) = (options.min_step(), options.max_turn_deg.to_radians().cos());
         let mut head = Head::new(self.seed, along, sign);
@@ -130,6 +134,10 @@ impl<F: DirectionField + ?Sized> March<'_, F> {
                 ) {
                     points.push(self.seed);
                     stopped = Some(Stop::ClosedLoop);
+                    break;
+                }
+                stopped = watch(points.last().copied().unwrap_or(self.seed), to);
+                if stopped.is_some() {
                     break;
                 }
                 points.push(to);

@@ -108,6 +108,23 @@ pub(crate) fn trace_valid<F: DirectionField + ?Sized>(
     heading: Coord<f64>,
     options: &TraceOptions,
 ) -> Option<Streamline> {
+    trace_watched(field, seed, heading, options, &mut |_, _, _| None)
+}
+
+/// [`trace_valid`] with a watchman: it is shown each new point, after the one
+/// before it and the sign of the half (1 forwards, -1 backwards), and where it
+/// names a reason the half ends before that point.
+pub(crate) fn trace_watched<F, W>(
+    field: &F,
+    seed: Coord<f64>,
+    heading: Coord<f64>,
+    options: &TraceOptions,
+    watch: &mut W,
+) -> Option<Streamline>
+where
+    F: DirectionField + ?Sized,
+    W: FnMut(f64, Coord<f64>, Coord<f64>) -> Option<Stop>,
+{
     let along = field
         .direction(seed, heading, &mut Cursor::default())
         .and_then(unit)?;
@@ -117,11 +134,13 @@ pub(crate) fn trace_valid<F: DirectionField + ?Sized>(
         seed,
     };
     let mut track = Track::new(seed, options.self_approach, options.step);
-    let forward = march.run(along, 1.0, &mut track);
+    let forward = march.run(along, 1.0, &mut track, &mut |a, b| watch(1.0, a, b));
     let (start, mut points) = if forward.stop == Stop::ClosedLoop {
         (Stop::ClosedLoop, vec![seed])
     } else {
-        let backward = march.run(along * -1.0, -1.0, &mut track);
+        let backward = march.run(along * -1.0, -1.0, &mut track, &mut |a, b| {
+            watch(-1.0, a, b)
+        });
         let mut points = backward.points;
         points.reverse();
         points.push(seed);

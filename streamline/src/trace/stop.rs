@@ -25,6 +25,15 @@ pub enum Stop {
     LengthLimit,
     /// The field has no direction from here on, though the domain goes on.
     FieldEnd,
+    /// It would have come too near to another line that runs alongside: only
+    /// of lines made by [`place`](crate::place).
+    Neighbour,
+    /// It ends on another line, at a point of that line: only of lines made by
+    /// [`place`](crate::place).
+    Junction {
+        /// The other line's position in the list of lines.
+        line: usize,
+    },
 }
 
 impl Stop {

@@ -1,0 +1,286 @@
+//! Placing line after line: beside earlier ones, or where most room is left.
+
+use super::chords::Chords;
+use super::options::{PlacementOptions, Strategy};
+use super::spacing::Spacing;
+use super::watch::Watch;
+use crate::candidates::Seed;
+use crate::field::{Cursor, DirectionField};
+use crate::streamline::Streamline;
+use crate::trace::{trace_watched, TraceOptions};
+use crate::vector::{distance, left, point, unit, Point};
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// Width of a cell of the grid, in separations.
+const CELL: f64 = 0.75;
+/// A line starts beside another one where no third is nearer than this, in
+/// separations (or than d_test, if that is more): less than 1, so that a gap
+/// that widens is filled before it is two separations wide.
+const CLEARANCE: f64 = 0.92;
+/// Least advance along a line between two places that are tried, in
+/// separations.
+const ADVANCE: f64 = 0.125;
+/// Rooms wider than this many separations count as equally wide.
+const WIDE: f64 = 4.0;
+
+pub(super) struct Placer<'a, F: ?Sized> {
+    field: &'a F,
+    options: &'a PlacementOptions,
+    spacing: &'a Spacing<'a>,
+    trace: TraceOptions,
+    chords: Chords,
+    lines: Vec<Streamline>,
+    cursor: Cursor,
+}
+
+/// On which side of a line new ones are tried.
+#[derive(Clone, Copy)]
+enum Side {
+    /// One separation to the left (1) or right (-1) of it.
+    Beside(f64),
+    /// On it, across.
+    Across,
+}
+
+impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
+    pub(super) fn new(
+        field: &'a F,
+        options: &'a PlacementOptions,
+        spacing: &'a Spacing<'a>,
+        seeds: &[Seed],
+    ) -> Self {
+        let mut low = point(f64::INFINITY, f64::INFINITY);
+        let mut high = low * -1.0;
+        for seed in seeds {
+            low = point(low.x.min(seed.at.x), low.y.min(seed.at.y));
+            high = point(high.x.max(seed.at.x), high.y.max(seed.at.y));
+        }
+        if seeds.is_empty() {
+            (low, high) = (Point::zero(), Point::zero());
+        }
+        Self {
+            field,
+            options,
+            spacing,
+            trace: TraceOptions {
+                self_approach: 0.0,
+                ..options.trace
+            },
+            chords: Chords::new(low, high, CELL * spacing.typical()),
+            lines: Vec::new(),
+            cursor: Cursor::default(),
+        }
+    }
+
+    pub(super) fn run(mut self, seeds: &[Seed]) -> Vec<Streamline> {
+        match self.options.strategy {
+            Strategy::Neighbour => self.neighbours(seeds),
+            Strategy::Farthest => self.farthest(seeds),
+        }
+        self.lines
+    }
+
+    fn neighbours(&mut self, seeds: &[Seed]) {
+        let (mut beside, mut across) = (0, 0);
+        // From the middle outwards; then whatever was not reached, in order.
+        for index in middle(seeds).into_iter().chain(0..seeds.len()) {
+            for (family, heading) in self.families(&seeds[index]) {
+                self.start(seeds[index].at, heading, family, index, 1.0);
+            }
+            // Across only when nothing is left to do beside: neighbours are
+            // exactly spaced, and rows of them begun far apart do not fit.
+            while across < self.lines.len() {
+                if beside < self.lines.len() {
+                    let line = self.lines[beside].clone();
+                    self.sweep(&line, Side::Beside(1.0));
+                    self.sweep(&line, Side::Beside(-1.0));
+                    beside += 1;
+                } else {
+                    let line = self.lines[across].clone();
+                    self.sweep(&line, Side::Across);
+                    across += 1;
+                }
+            }
+        }
+    }
+
+    fn farthest(&mut self, seeds: &[Seed]) {
+        // Room in separations, as the bits of a positive number, which order
+        // like it; of equals the first seed.
+        let key = f64::to_bits;
+        let mut heap: BinaryHeap<(u64, Reverse<usize>)> = (0..2 * seeds.len())
+            .map(|slot| (key(WIDE), Reverse(slot)))
+            .collect();
+        // Before all others, and once more with them, which does no harm.
+        if let Some(index) = middle(seeds) {
+            let first = key(2.0 * WIDE);
+            heap.extend([(first, Reverse(2 * index)), (first, Reverse(2 * index + 1))]);
+        }
+        while let Some((stored, Reverse(slot))) = heap.pop() {
+            let (index, at) = (slot / 2, seeds[slot / 2].at);
+            let (family, heading) = self.families(&seeds[index])[slot % 2];
+            let Some(along) = unit(heading) else { continue };
+            let separation = self.spacing.at(at, family);
+            let room = self
+                .room(at, along, WIDE * separation)
+                .map_or(WIDE, |near| near / separation);
+            if room >= 1.0 && key(room) < stored {
+                heap.push((key(room), Reverse(slot)));
+            } else if room >= 1.0 {
+                self.start(at, heading, family, index, 1.0);
+            }
+        }
+    }
+
+    /// The two orientations at a seed with their families: as the nearest line
+    /// has them, for around singularities they change places.
+    fn families(&self, seed: &Seed) -> [(u8, Point); 2] {
+        let [first, second] = seed.directions;
+        let reach = self.spacing.widest(seed.at);
+        let family_along = |way: Point| {
+            let near = self
+                .chords
+                .nearest(seed.at, unit(way)?, reach, None, false)?;
+            Some(near.family)
+        };
+        let family = family_along(first)
+            .or_else(|| Some(1 - family_along(second)?))
+            .unwrap_or(0);
+        [(family, first), (1 - family, second)]
+    }
+
+    /// Traces a line unless another one runs alongside within `clearance`
+    /// separations; true if it was placed.
+    fn start(
+        &mut self,
+        at: Point,
+        heading: Point,
+        family: u8,
+        seed: usize,
+        clearance: f64,
+    ) -> bool {
+        if !self.options.families[usize::from(family)] {
+            return false;
+        }
+        let Some(along) = self
+            .field
+            .direction(at, heading, &mut self.cursor)
+            .and_then(unit)
+        else {
+            return false;
+        };
+        let separation = self.spacing.at(at, family);
+        self.room(at, along, clearance * separation).is_none()
+            && self.place(at, along, family, seed, separation)
+    }
+
+    /// Distance to the nearest line alongside, if within `reach`.
+    fn room(&self, at: Point, along: Point, reach: f64) -> Option<f64> {
+        self.chords
+            .nearest(at, along, reach, None, false)
+            .map(|near| near.distance)
+    }
+
+    fn place(&mut self, at: Point, along: Point, family: u8, seed: usize, separation: f64) -> bool {
+        let mark = self.chords.len();
+        let name = (self.lines.len() as u32, family);
+        let mut watch = Watch::new(&mut self.chords, self.spacing, self.options.test, name, at);
+        let line = trace_watched(self.field, at, along, &self.trace, &mut |sign, a, b| {
+            watch.step(sign, a, b)
+        });
+        let line = line.filter(|line| {
+            watch.finish(line);
+            line.points.len() > 1 && line.length() >= self.options.min_length * separation
+        });
+        match line {
+            Some(mut line) => {
+                (line.family, line.seed_index) = (family, seed);
+                self.lines.push(line);
+                true
+            }
+            None => {
+                self.chords.truncate(mark);
+                false
+            }
+        }
+    }
+
+    /// Tries places along a line, each as far on as the lines near the last one
+    /// demand.
+    fn sweep(&mut self, line: &Streamline, side: Side) {
+        let family = match side {
+            Side::Beside(_) => line.family,
+            Side::Across => 1 - line.family,
+        };
+        if !self.options.families[usize::from(family)] {
+            return;
+        }
+        let clearance = match side {
+            Side::Beside(_) => CLEARANCE.max(self.options.test),
+            Side::Across => 1.0,
+        };
+        // Where the next place lies, from the start of the piece in question.
+        let mut ahead = 0.0;
+        for pair in line.points.windows(2) {
+            let length = distance(pair[0], pair[1]);
+            while ahead <= length && length > 0.0 {
+                let way = (pair[1] - pair[0]) / length;
+                let on = pair[0] + way * ahead;
+                let (at, heading) = match side {
+                    Side::Beside(sign) => {
+                        let aside = left(way) * sign;
+                        let here = self.spacing.at(on, family);
+                        // Halfway between the separations at the two places.
+                        let there = self.spacing.at(on + aside * here, family);
+                        (on + aside * (0.5 * (here + there)), way)
+                    }
+                    Side::Across => (on, left(way)),
+                };
+                ahead += self.try_at(at, heading, family, line.seed_index, clearance);
+            }
+            ahead -= length;
+        }
+    }
+
+    /// Tries one place; how far to go on to the next.
+    fn try_at(
+        &mut self,
+        at: Point,
+        heading: Point,
+        family: u8,
+        seed: usize,
+        clearance: f64,
+    ) -> f64 {
+        let separation = self.spacing.at(at, family);
+        let least = ADVANCE * separation;
+        let Some(along) = self
+            .field
+            .direction(at, heading, &mut self.cursor)
+            .and_then(unit)
+        else {
+            return least;
+        };
+        let reach = clearance * separation;
+        match self.room(at, along, reach) {
+            Some(room) => (reach - room).max(1e-3 * separation).max(match clearance {
+                // Across, places follow each other exactly.
+                c if c >= 1.0 => 0.0,
+                _ => least,
+            }),
+            None if self.place(at, along, family, seed, separation) => reach,
+            None => least,
+        }
+    }
+}
+
+/// The seed nearest to the middle of all.
+fn middle(seeds: &[Seed]) -> Option<usize> {
+    let origin = seeds.first()?.at;
+    let sum = seeds
+        .iter()
+        .fold(Point::zero(), |sum, seed| sum + (seed.at - origin));
+    let mean = origin + sum / seeds.len() as f64;
+    (0..seeds.len())
+        .min_by(|&i, &j| distance(seeds[i].at, mean).total_cmp(&distance(seeds[j].at, mean)))
+}

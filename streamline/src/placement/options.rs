@@ -1,0 +1,159 @@
+//! How lines are placed.
+
+use crate::error::TraceError;
+use crate::trace::TraceOptions;
+
+/// In which order lines are placed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Strategy {
+    /// Each line starts one separation beside an earlier one (B. Jobard,
+    /// W. Lefer, *Creating Evenly-Spaced Streamlines of Arbitrary Density*,
+    /// 1997): the evenest spacing.
+    #[default]
+    Neighbour,
+    /// Each line starts at the seed that is farthest from all others, in
+    /// separations (A. Mebarki, P. Alliez, O. Devillers, *Farthest Point
+    /// Seeding for Efficient Placement of Streamlines*, 2005): longer lines,
+    /// and a set that is evenly spread at any moment.
+    Farthest,
+}
+
+/// What becomes of a line's end that came too near to another line.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Ends {
+    /// It stays where it is, in the open ([`Stop::Neighbour`](crate::Stop)).
+    #[default]
+    Open,
+    /// It is cut back to the last line that it crosses, and ends there in a
+    /// T ([`Stop::Junction`](crate::Stop)). Lines that cross too few others go.
+    Junction,
+}
+
+/// How lines are placed by [`place`](crate::place). Lengths in metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct PlacementOptions {
+    /// Distance between neighbouring lines of the first and of the second
+    /// family: d_sep. If lines of the first family bound the depth of blocks,
+    /// then those of the second bound their length.
+    ///
+    /// Default value: 75 m (two parcels of 30 m and a street of 15 m) and
+    /// 150 m.
+    pub separation: [f64; 2],
+    /// A line ends before it comes nearer than this share of the separation to
+    /// another that runs alongside, or to itself: d_test / d_sep, from 0.1 to
+    /// 1. The smaller, the longer the lines and the more uneven their spacing.
+    ///
+    /// Default value: 0.87.
+    pub test: f64,
+    /// Shorter lines are dropped, as a share of the separation.
+    ///
+    /// Default value: 0.5.
+    pub min_length: f64,
+    /// Which families are placed.
+    ///
+    /// Default value: both.
+    pub families: [bool; 2],
+    /// The order of placement.
+    ///
+    /// Default value: [`Strategy::Neighbour`].
+    pub strategy: Strategy,
+    /// What becomes of ends near other lines.
+    ///
+    /// Default value: [`Ends::Open`].
+    pub ends: Ends,
+    /// How each line is traced. Its `self_approach` is not used: a line keeps
+    /// the same distance from itself as from others.
+    ///
+    /// Default value: that of [`TraceOptions`], with a tenth of its tolerance
+    /// (0.001 m), so that tangents are accurate too.
+    pub trace: TraceOptions,
+}
+
+impl Default for PlacementOptions {
+    fn default() -> Self {
+        Self {
+            separation: [75.0, 150.0],
+            test: 0.87,
+            min_length: 0.5,
+            families: [true, true],
+            strategy: Strategy::Neighbour,
+            ends: Ends::Open,
+            trace: TraceOptions {
+                tolerance: 1e-3,
+                ..TraceOptions::default()
+            },
+        }
+    }
+}
+
+impl PlacementOptions {
+    pub(super) fn validate(&self) -> Result<(), TraceError> {
+        self.trace.validate()?;
+        for value in self.separation {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(TraceError::BadOption {
+                    name: "separation",
+                    value,
+                    expected: "positive and finite",
+                });
+            }
+        }
+        if !(0.1..=1.0).contains(&self.test) {
+            return Err(TraceError::BadOption {
+                name: "test",
+                value: self.test,
+                expected: "from 0.1 to 1",
+            });
+        }
+        if !(self.min_length >= 0.0 && self.min_length.is_finite()) {
+            return Err(TraceError::BadOption {
+                name: "min_length",
+                value: self.min_length,
+                expected: "zero or positive, and finite",
+            });
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_bad_option_is_named() {
+        let good = PlacementOptions::default();
+        assert_eq!(good.validate(), Ok(()));
+        let trace = TraceOptions {
+            step: 0.0,
+            ..good.trace
+        };
+        let bad = [
+            (
+                "separation",
+                PlacementOptions {
+                    separation: [75.0, f64::NAN],
+                    ..good
+                },
+            ),
+            ("test", PlacementOptions { test: 1.01, ..good }),
+            (
+                "min_length",
+                PlacementOptions {
+                    min_length: -1.0,
+                    ..good
+                },
+            ),
+            ("step", PlacementOptions { trace, ..good }),
+        ];
+        for (expected, options) in bad {
+            match options.validate() {
+                Err(TraceError::BadOption { name, .. }) => assert_eq!(name, expected),
+                other => panic!("{expected}: {other:?}"),
+            }
+        }
+    }
+}

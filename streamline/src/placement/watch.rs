@@ -1,0 +1,158 @@
+//! What keeps a line that is being traced apart from the others and itself.
+
+use super::chords::{Chord, Chords, Own};
+use super::spacing::Spacing;
+use crate::streamline::Streamline;
+use crate::trace::Stop;
+use crate::vector::{cross, dot, norm, Point};
+
+/// Length of a chord in separations, at most.
+const CHORD: f64 = 0.25;
+/// How far beyond d_test a look reaches, in separations: nothing can come
+/// nearer until the line has gone as far.
+const LOOK: f64 = 0.25;
+/// Cosine of 10 degrees: a line that has turned by more looks again.
+const TURNED: f64 = 0.985;
+/// Own chords nearer along the line than this many times d_test are
+/// neighbours: more than half a circle of that radius.
+const OWN_GAP: f64 = 3.0;
+/// Height of a curved stretch over its chord, in separations, at most.
+const SAGITTA: f64 = 0.002;
+
+pub(super) struct Watch<'a> {
+    chords: &'a mut Chords,
+    spacing: &'a Spacing<'a>,
+    test: f64,
+    line: u32,
+    family: u8,
+    /// Of the half under way: 1 forwards, -1 backwards.
+    sign: f64,
+    arc: f64,
+    /// Where the chord under way began, at which arc length and which way.
+    from: Point,
+    from_arc: f64,
+    from_way: Point,
+    /// The same for the forward half, once it is done.
+    forward: Option<(Point, f64)>,
+    /// What the last look saw: no line nearer than this.
+    free: f64,
+    moved: f64,
+    looked: Point,
+}
+
+impl<'a> Watch<'a> {
+    pub(super) fn new(
+        chords: &'a mut Chords,
+        spacing: &'a Spacing<'a>,
+        test: f64,
+        (line, family): (u32, u8),
+        seed: Point,
+    ) -> Self {
+        Self {
+            chords,
+            spacing,
+            test,
+            line,
+            family,
+            sign: 1.0,
+            arc: 0.0,
+            from: seed,
+            from_arc: 0.0,
+            from_way: Point::zero(),
+            forward: None,
+            free: 0.0,
+            moved: 0.0,
+            looked: Point::zero(),
+        }
+    }
+
+    /// The line goes on from `a` to `b`: may it?
+    pub(super) fn step(&mut self, sign: f64, a: Point, b: Point) -> Option<Stop> {
+        if sign != self.sign {
+            self.forward = Some((self.from, self.from_arc));
+            self.sign = sign;
+            (self.arc, self.from, self.from_arc) = (0.0, a, 0.0);
+            (self.free, self.moved) = (0.0, 0.0);
+            self.from_way = Point::zero();
+        }
+        let length = norm(b - a);
+        if length == 0.0 {
+            return None;
+        }
+        let way = (b - a) / length;
+        let separation = self.spacing.at(b, self.family);
+        let test = self.test * separation;
+        self.moved += length;
+        if self.moved >= self.free - test || dot(way, self.looked) < TURNED {
+            if let Some(stop) = self.look(b, way, self.arc + length, test, separation) {
+                return Some(stop);
+            }
+        }
+        self.lay(a, length, way, separation);
+        self.arc += length;
+        None
+    }
+
+    fn look(&mut self, b: Point, way: Point, arc: f64, test: f64, wide: f64) -> Option<Stop> {
+        let own = Some(Own {
+            line: self.line,
+            arc: self.sign * arc,
+            gap: OWN_GAP * test,
+        });
+        let reach = test + LOOK * wide;
+        (self.free, self.moved, self.looked) = (reach, 0.0, way);
+        let near = self.chords.nearest(b, way, reach, own, true)?;
+        self.free = near.distance;
+        if near.distance >= test {
+            return None;
+        }
+        // It may be one that turns too much to count, and hide one that does.
+        let near = self.chords.nearest(b, way, test, own, false)?;
+        Some(if near.own {
+            Stop::SelfApproach
+        } else {
+            Stop::Neighbour
+        })
+    }
+
+    /// Ends the chord under way at `a` if the next piece would make it too long
+    /// or too curved.
+    fn lay(&mut self, a: Point, length: f64, way: Point, separation: f64) {
+        let stretch = self.arc - self.from_arc;
+        let bend = cross(self.from_way, way).abs();
+        let long = stretch + length;
+        if stretch > 0.0 && (long > CHORD * separation || bend * long > 8.0 * SAGITTA * separation)
+        {
+            self.push(self.from, a, self.from_arc, self.arc, self.sign);
+            (self.from, self.from_arc, self.from_way) = (a, self.arc, way);
+        } else if stretch == 0.0 {
+            self.from_way = way;
+        }
+    }
+
+    fn push(&mut self, a: Point, b: Point, from: f64, to: f64, sign: f64) {
+        let arc = sign * 0.5 * (from + to);
+        if let Some(chord) = Chord::new(a, b, self.line, self.family, arc) {
+            self.chords.push(chord);
+        }
+    }
+
+    /// Lays the last chords, out to the ends of the finished line.
+    pub(super) fn finish(mut self, line: &Streamline) {
+        let (Some(&first), Some(&last)) = (line.points.first(), line.points.last()) else {
+            return;
+        };
+        let under_way = (self.from, self.from_arc);
+        let (forward, backward) = match self.forward {
+            Some(forward) => (forward, under_way),
+            // Not one point was laid backwards, but a last one may have been.
+            None => (under_way, (line.seed, 0.0)),
+        };
+        let (from, arc) = forward;
+        self.push(from, last, arc, arc + norm(last - from), 1.0);
+        if !line.is_closed() {
+            let (from, arc) = backward;
+            self.push(from, first, arc, arc + norm(first - from), -1.0);
+        }
+    }
+}
