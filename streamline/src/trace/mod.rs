@@ -171,6 +171,6 @@ pub(crate) fn trace_ahead<F: DirectionField + ?Sized>(
         seed,
     };
     let mut track = Track::new(seed, options.self_approach, options.step);
-    let half = march.run(along, 1.0, &mut track);
+    let half = march.run(along, 1.0, &mut track, &mut |_, _| None);
     (half.points, half.stop)
 }
