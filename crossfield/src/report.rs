@@ -272,7 +272,12 @@ mod tests {
         let text = comparison.to_string();
         assert_eq!(text.lines().count(), 4);
         assert!(text.contains("a and b differ by 17.19 deg"), "{text}");
-        let other = constant(&square(), 0.1);
+        // An equal mesh is as good as the same one, another is not.
+        let again = constant(&square(), 0.4);
+        assert!(compare(&[("a", &a), ("again", &again)]).is_ok());
+        let wide = polygon![(x: 0., y: 0.), (x: 9., y: 0.), (x: 9., y: 2.), (x: 0., y: 2.)];
+        let wide = Domain::new(&wide, &DomainOptions::default()).expect("valid");
+        let other = constant(&wide, 0.1);
         assert!(compare(&[("a", &a), ("other", &other)]).is_err());
         assert!(compare(&[]).expect("nothing to compare").fields.is_empty());
     }
