@@ -176,7 +176,7 @@ fn smoothing_restores_what_noise_hid() {
 #[test]
 fn what_does_not_fit_is_refused() {
     let site = shape(&[(0., 0.), (120., 0.), (120., 80.), (0., 80.)]);
-    let (one, two): (Domain, Domain) = (domain(&site, 10.0), domain(&site, 10.0));
+    let (one, two): (Domain, Domain) = (domain(&site, 10.0), domain(&site, 11.0));
     let a = BoundaryField::default().design(&one).expect("a field");
     let b = BoundaryField::default().design(&two).expect("a field");
     let lines = BoundaryField {
