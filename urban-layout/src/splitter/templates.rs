@@ -18,7 +18,7 @@ use crate::splitter::{Action, FaceUse, Fill, FillFace, Proposal, Scene, Service,
 /// Fills blocks with warped templates of a library.
 #[derive(Clone, Debug)]
 pub struct TemplateSplitter {
-    library: Library,
+    templates: Library,
 }
 
 /// Matches that are warped before a block counts as one that no template fits.
@@ -42,7 +42,7 @@ impl TemplateSplitter {
                 .map_err(|e| Error::usage(format!("templates: {e}")))?;
         }
         Ok(Self {
-            library: library.with_sizes(
+            templates: library.with_sizes(
                 options.parcel_length,
                 options.parcel_width,
                 options.street_width,
@@ -79,7 +79,7 @@ impl Splitter for TemplateSplitter {
         let Ok(block) = template_region(plot) else {
             return Vec::new();
         };
-        let candidates = match_templates(&self.library, &block, &MatchOptions::default());
+        let candidates = match_templates(&self.templates, &block, &MatchOptions::default());
         if scene.draft {
             // The paper picks the template by its boundary, before any warp.
             let lineage = Lineage::of(region, self.name());
@@ -100,7 +100,8 @@ impl Splitter for TemplateSplitter {
                 .collect();
         }
         for candidate in candidates.iter().take(WARPED) {
-            let Ok(warped) = warp(&self.library, &block, candidate, &WarpOptions::default()) else {
+            let Ok(warped) = warp(&self.templates, &block, candidate, &WarpOptions::default())
+            else {
                 continue;
             };
             if warped.energy > options.template_energy || undesirable(&warped) > UNDESIRABLE {
