@@ -1,11 +1,14 @@
 //! A triangulated polygon, the ground that fields are designed on.
 
 mod core;
+mod cursor;
+mod extract;
 mod fault;
 mod lattice;
 mod lines;
 mod locate;
 mod mesh;
+mod options;
 mod pieces;
 mod ring;
 mod sight;
@@ -20,117 +23,13 @@ use nalgebra::Rotation2;
 use crate::footpoint::EdgeTree;
 use crate::plane::{coord, vector, V2};
 use crate::FieldError;
+pub use cursor::Cursor;
 use lines::Lines;
 pub(crate) use mesh::{Border, BORDER};
+pub use options::DomainOptions;
 pub use pieces::Piece;
 pub(crate) use ring::Ring;
 use sizing::Sizing;
-
-/// How a domain is triangulated.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct DomainOptions {
-    /// Wanted length of triangle edges, metres; 0 for `sqrt(area) / 40` (on
-    /// needle-thin domains more, an eight-thousandth of the perimeter).
-    ///
-    /// Boundary edges are subdivided to at most this length.
-    ///
-    /// Default value: 0.
-    pub edge_length: f64,
-    /// How fast edges may grow inwards from the boundary, metres a metre; 0
-    /// for an even mesh.
-    ///
-    /// With 0.3, say, edges are as long as `boundary_length` says on the
-    /// boundary, or as an edge of the input that is shorter, and grow by 0.3 m
-    /// for each metre inwards until they are `edge_length` long. On an even
-    /// mesh only refinement towards `min_angle_deg` leads down to short edges.
-    ///
-    /// Default value: 0.
-    pub grading: f64,
-    /// Wanted length of triangle edges on the boundary where the mesh is
-    /// graded, metres; 0 for `edge_length`, which is also the most it can be.
-    ///
-    /// Default value: 0.
-    pub boundary_length: f64,
-    /// Wanted smallest angle of the triangles, degrees, between 0 and 32.
-    ///
-    /// Reached except near small angles of the boundary itself, and except
-    /// where refinement runs out of its budget of vertices (three times the
-    /// vertices of an even mesh, and never more than `max_vertices`).
-    ///
-    /// Default value: 25.
-    pub min_angle_deg: f64,
-    /// Most vertices that the mesh may have.
-    ///
-    /// Default value: 200 000.
-    pub max_vertices: usize,
-    /// A boundary vertex that turns by more than this is a corner, degrees;
-    /// smaller turns belong to a curve.
-    ///
-    /// Default value: 30.
-    pub corner_deg: f64,
-}
-
-impl Default for DomainOptions {
-    fn default() -> Self {
-        Self {
-            edge_length: 0.0,
-            grading: 0.0,
-            boundary_length: 0.0,
-            min_angle_deg: 25.0,
-            max_vertices: 200_000,
-            corner_deg: 30.0,
-        }
-    }
-}
-
-impl DomainOptions {
-    fn check(&self) -> Result<(), FieldError> {
-        if !(self.edge_length >= 0.0 && self.edge_length.is_finite()) {
-            return Err(FieldError::option(
-                "edge_length",
-                format!("is {}; give metres, or 0 for automatic", self.edge_length),
-            ));
-        }
-        if !(self.boundary_length >= 0.0 && self.boundary_length.is_finite()) {
-            return Err(FieldError::option(
-                "boundary_length",
-                format!(
-                    "is {}; give metres, or 0 for automatic",
-                    self.boundary_length
-                ),
-            ));
-        }
-        if !(self.grading == 0.0 || (0.01..=10.0).contains(&self.grading)) {
-            return Err(FieldError::option(
-                "grading",
-                format!(
-                    "is {}; give 0.01 to 10, or 0 for an even mesh",
-                    self.grading
-                ),
-            ));
-        }
-        if self.boundary_length > 0.0 && self.grading == 0.0 {
-            return Err(FieldError::option(
-                "boundary_length",
-                "needs `grading` to be more than 0".to_owned(),
-            ));
-        }
-        if !(0.0..=32.0).contains(&self.min_angle_deg) {
-            return Err(FieldError::option(
-                "min_angle_deg",
-                format!("is {}; give 0 to 32 degrees", self.min_angle_deg),
-            ));
-        }
-        if !(self.corner_deg > 0.0 && self.corner_deg < 180.0) {
-            return Err(FieldError::option(
-                "corner_deg",
-                format!("is {}; give more than 0 and less than 180", self.corner_deg),
-            ));
-        }
-        Ok(())
-    }
-}
 
 /// A corner of the boundary: a vertex that turns by more than
 /// [`DomainOptions::corner_deg`].
@@ -170,40 +69,6 @@ pub struct Exit {
     pub ring: usize,
     /// Its edge in the input ring; edge `i` joins vertices `i` and `i + 1`.
     pub edge: usize,
-}
-
-/// Remembers the triangle in which a point was last found, so that the next
-/// one, not far away, is found in a few steps.
-///
-/// Any cursor may be used with any domain: a stale one costs time only, and
-/// `Cursor::default()` starts anew.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Cursor(u32);
-
-impl Cursor {
-    /// The cursor as a number, for those who keep it in a type of their own.
-    #[must_use]
-    pub const fn to_bits(self) -> u64 {
-        self.0 as u64
-    }
-
-    /// The cursor that [`Cursor::to_bits`] gave; any number is safe, a wrong
-    /// one only makes the next location slower.
-    #[must_use]
-    pub const fn from_bits(bits: u64) -> Self {
-        Self(bits as u32)
-    }
-}
-
-impl Cursor {
-    fn at(triangle: usize) -> Self {
-        Self(triangle as u32 + 1)
-    }
-
-    fn triangle(self, count: usize) -> Option<usize> {
-        let triangle = (self.0 as usize).checked_sub(1)?;
-        (triangle < count).then_some(triangle)
-    }
 }
 
 /// A polygon with holes, triangulated with Steiner points inside and on the
