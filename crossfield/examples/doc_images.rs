@@ -1,5 +1,6 @@
-//! Draws the pictures of the README into `images/`: a site with a hole, its
-//! D-field and its B-field as crosses on a grid, and their singularities.
+//! Draws the pictures of the README and of the designs' documentation into
+//! `images/`: a site with a hole, its fields of each kind as crosses on a grid,
+//! and their singularities.
 //!
 //! `cargo run -p crossfield --example doc_images [FOLDER]`
 
@@ -8,8 +9,9 @@ use std::path::PathBuf;
 
 use crossfield::geo_types::{coord, Coord, LineString, Polygon};
 use crossfield::{
-    BoundaryField, Cursor, DistanceField, Domain, DomainOptions, Field, FieldDesign, GradientField,
-    HarmonicField,
+    BoundaryField, ConstrainedField, Cursor, DistanceField, Domain, DomainOptions, Field,
+    FieldDesign, GradientField, HarmonicField, OptimalField, PrescribedField, Singularity, Stroke,
+    Symmetry,
 };
 
 /// A suburban site, in metres: a bend of a road to the south, a straight one
@@ -50,7 +52,7 @@ fn path(ring: &LineString<f64>) -> String {
     path + "Z"
 }
 
-fn draw(polygon: &Polygon<f64>, field: &Field) -> String {
+fn draw(polygon: &Polygon<f64>, field: &Field, sketch: Option<&LineString<f64>>) -> String {
     let mut crosses = String::new();
     let mut cursor = Cursor::default();
     for row in 0..28 {
@@ -86,15 +88,37 @@ fn draw(polygon: &Polygon<f64>, field: &Field) -> String {
             "<circle cx='{x:.1}' cy='{y:.1}' r='6' fill='{colour}'/>"
         );
     }
+    if let Some(sketch) = sketch {
+        let data = path(sketch).replace('Z', "");
+        let _ = write!(
+            marks,
+            "<path d='{data}' fill='none' stroke='#2b8a3e' stroke-width='4'/>"
+        );
+    }
     let outline: String = std::iter::once(polygon.exterior())
         .chain(polygon.interiors())
         .map(path)
         .collect();
     format!(
-        "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 640 460'>\
+        "<svg xmlns='http://www.w3.org/2000/svg' width='560' height='402' viewBox='0 0 640 460'>\
          <path d='{outline}' fill='#f4f1ea' fill-rule='evenodd' stroke='#343a40' stroke-width='3'/>\
          <path d='{crosses}' stroke='#495057' stroke-width='1.2'/>{marks}</svg>\n"
     )
+}
+
+/// A roundabout where five streets meet, one where three do, and what else
+/// the boundary asks for north of the pond.
+fn prescribed(domain: &Domain) -> Vec<Singularity> {
+    let at = |x: f64, y: f64, quarter_index| Singularity {
+        at: coord! { x: x, y: y },
+        quarter_index,
+    };
+    let mut all = vec![at(120.0, 170.0, -1), at(400.0, 190.0, 1)];
+    match PrescribedField::needed_sum(domain, Symmetry::Cross) {
+        0 => {}
+        rest => all.push(at(230.0, 360.0, rest)),
+    }
+    all
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -104,11 +128,30 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     );
     let site = site();
     let domain = Domain::new(&site, &DomainOptions::default())?;
+    // A street that someone drew.
+    let sketch = LineString::from(vec![
+        (70.0, 90.0),
+        (190.0, 110.0),
+        (300.0, 170.0),
+        (360.0, 260.0),
+        (365.0, 350.0),
+    ]);
     let fields = [
         ("d-field.svg", DistanceField::default().design(&domain)?),
         ("b-field.svg", BoundaryField::default().design(&domain)?),
         ("h-field.svg", HarmonicField::default().design(&domain)?),
         ("g-field.svg", GradientField::default().design(&domain)?),
+        ("o-field.svg", OptimalField::default().design(&domain)?),
+        (
+            "c-field.svg",
+            ConstrainedField::new(BoundaryField::default())
+                .with(Stroke::new(sketch.clone(), 300.0))
+                .design(&domain)?,
+        ),
+        (
+            "p-field.svg",
+            PrescribedField::new(prescribed(&domain)).design(&domain)?,
+        ),
     ];
     for (name, field) in fields {
         let check = field.index_check();
@@ -120,7 +163,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             check.corners,
             field.mean_abs_divergence(),
         );
-        std::fs::write(folder.join(name), draw(&site, &field))?;
+        let sketch = (name == "c-field.svg").then_some(&sketch);
+        std::fs::write(folder.join(name), draw(&site, &field, sketch))?;
     }
     Ok(())
 }

@@ -71,6 +71,8 @@ pub enum Start {
 /// assert!(cross.expect("inside").angle().abs() < 1e-9);
 /// # Ok::<(), crossfield::FieldError>(())
 /// ```
+///
+#[doc = include_str!("../images/b-field.svg")]
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default))]

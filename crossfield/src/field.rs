@@ -319,6 +319,24 @@ pub(crate) fn smooth_over(
 }
 
 #[cfg(test)]
+impl Field {
+    /// Radial and tangential crosses around the origin, which lies outside.
+    pub(crate) fn polar(shape: &geo_types::Polygon<f64>, edge_length: f64) -> Self {
+        let options = crate::DomainOptions {
+            edge_length,
+            ..crate::DomainOptions::default()
+        };
+        let domain = Domain::new(shape, &options).expect("valid");
+        let crosses = domain
+            .vertices()
+            .into_iter()
+            .map(|p| Cross::from_direction(p).expect("off the origin"));
+        let vectors = crosses.map(|cross| cross.representative()).collect();
+        Self::from_representatives(&domain, vectors).expect("fits")
+    }
+}
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::DomainOptions;

@@ -131,27 +131,12 @@ impl Field {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Cross, Domain, DomainOptions};
     use geo_types::{coord, polygon};
 
     /// Crosses along circles around the origin, seen from a square off it.
     fn polar(edge_length: f64) -> Field {
         let shape = polygon![(x: 10., y: 0.), (x: 20., y: 0.), (x: 20., y: 10.), (x: 10., y: 10.)];
-        let options = DomainOptions {
-            edge_length,
-            ..DomainOptions::default()
-        };
-        let domain = Domain::new(&shape, &options).expect("valid");
-        let vectors = domain
-            .vertices()
-            .into_iter()
-            .map(|p| {
-                Cross::from_direction(p)
-                    .expect("off the origin")
-                    .representative()
-            })
-            .collect();
-        Field::from_representatives(&domain, vectors).expect("fits")
+        Field::polar(&shape, edge_length)
     }
 
     #[test]

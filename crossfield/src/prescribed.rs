@@ -74,6 +74,8 @@ pub enum Connection {
 /// assert_eq!(field.singularities().len(), 2);
 /// # Ok::<(), crossfield::FieldError>(())
 /// ```
+///
+#[doc = include_str!("../images/p-field.svg")]
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PrescribedField {

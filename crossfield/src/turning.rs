@@ -168,7 +168,6 @@ impl Field {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Domain, DomainOptions};
     use geo_types::{coord, line_string, polygon};
     use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -178,21 +177,7 @@ mod tests {
             exterior: [(x: -20., y: -20.), (x: 20., y: -20.), (x: 20., y: 20.), (x: -20., y: 20.)],
             interiors: [[(x: -3., y: -3.), (x: 3., y: -3.), (x: 3., y: 3.), (x: -3., y: 3.)]],
         );
-        let options = DomainOptions {
-            edge_length,
-            ..DomainOptions::default()
-        };
-        let domain = Domain::new(&shape, &options).expect("valid");
-        let vectors = domain
-            .vertices()
-            .into_iter()
-            .map(|p| {
-                Cross::from_direction(p)
-                    .expect("off the origin")
-                    .representative()
-            })
-            .collect();
-        Field::from_representatives(&domain, vectors).expect("fits")
+        Field::polar(&shape, edge_length)
     }
 
     #[test]

@@ -175,6 +175,8 @@ impl<'a> Pulls<'a> {
 /// assert!(cross.expect("inside").deviation(&wanted) < 0.1);
 /// # Ok::<(), crossfield::FieldError>(())
 /// ```
+///
+#[doc = include_str!("../../images/c-field.svg")]
 #[derive(Debug)]
 pub struct ConstrainedField<'a> {
     base: BoundaryField,

@@ -42,6 +42,8 @@ use weights::EdgeWeight;
 /// assert!(cross.expect("inside").angle().abs() < 1e-12);
 /// # Ok::<(), crossfield::FieldError>(())
 /// ```
+///
+#[doc = include_str!("../../images/d-field.svg")]
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DistanceField {

@@ -44,6 +44,8 @@ use crate::FieldError;
 /// assert!(cross.expect("inside").deviation(&radial) < 0.01);
 /// # Ok::<(), crossfield::FieldError>(())
 /// ```
+///
+#[doc = include_str!("../../images/g-field.svg")]
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct GradientField {

@@ -60,6 +60,8 @@ use gallery::Wanted;
 /// assert!(gallery[0].energy <= gallery[gallery.len() - 1].energy);
 /// # Ok::<(), crossfield::FieldError>(())
 /// ```
+///
+#[doc = include_str!("../../images/h-field.svg")]
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct HarmonicField {

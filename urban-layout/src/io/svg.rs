@@ -9,6 +9,8 @@
 
 mod canvas;
 mod field;
+mod field_map;
+mod field_sheet;
 mod font;
 mod map;
 mod palette;
@@ -22,6 +24,7 @@ use crate::site::Site;
 
 use canvas::{escaped, Canvas, Transform};
 pub use field::field_svg;
+pub use field_sheet::{field_sheet_svg, FieldPanel};
 
 /// How a plan is drawn.
 #[derive(Clone, Debug, PartialEq)]
