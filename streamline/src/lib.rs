@@ -34,4 +34,4 @@ pub use separatrix::{
 };
 pub use streamline::{Sample, Streamline};
 pub use tiles::{tiles, Dangling, HalfEdge, Tile, TileEdge, TileOptions, Tiling};
-pub use trace::{trace, EdgeLine, EdgeMaps, EdgeOptions, Stop, TraceOptions};
+pub use trace::{trace, trace_dense, Curve, EdgeLine, EdgeMaps, EdgeOptions, Stop, TraceOptions};

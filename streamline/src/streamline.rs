@@ -8,7 +8,7 @@ use geo_types::{Coord, LineString};
 use rstar::{primitives::GeomWithData, primitives::Line, RTree, AABB};
 
 /// Most pieces that a line is cut into: bounds the memory of an absurd step.
-const MOST: f64 = 1e7;
+pub(crate) const MOST: f64 = 1e7;
 
 /// A traced streamline. Coordinates in metres.
 #[derive(Clone, Debug, PartialEq)]

@@ -11,6 +11,7 @@
 //! long as the field turns by less than 45 degrees, which
 //! [`TraceOptions::max_turn_deg`](super::TraceOptions) enforces.
 
+use super::quartic::Quartic;
 use crate::field::{Cursor, DirectionField};
 use crate::vector::{dot, norm, Point};
 
@@ -135,12 +136,35 @@ impl Step {
     /// The point at fraction `t` of the step: order 4, continuous with its
     /// derivative from step to step.
     pub(crate) fn at(&self, t: f64) -> Point {
+        let [chord, first, last, top] = self.extension();
+        let s = 1.0 - t;
+        self.from + (chord + (first + (last + top * s) * t) * s) * t
+    }
+
+    /// What [`at`](Self::at) is made of.
+    fn extension(&self) -> [Point; 4] {
         let chord = self.to - self.from;
         let first = self.stage[0] * self.length - chord;
         let last = chord - self.stage[6] * self.length - first;
         let top = combine(&DENSE, &self.stage) * self.length;
-        let s = 1.0 - t;
-        self.from + (chord + (first + (last + top * s) * t) * s) * t
+        [chord, first, last, top]
+    }
+
+    /// The continuous extension as a Bezier curve.
+    ///
+    /// With t the fraction and s = 1 - t, [`at`](Self::at) is from + t chord +
+    /// t s first + t^2 s last + t^2 s^2 top: in Bernstein polynomials of degree
+    /// four t has the coefficients 0, 1/4, 1/2, 3/4, 1, t s has 0, 1/4, 1/3,
+    /// 1/4, 0, t^2 s has 0, 0, 1/6, 1/4, 0 and t^2 s^2 has 0, 0, 1/6, 0, 0.
+    pub(crate) fn shape(&self) -> Quartic {
+        let [chord, first, last, top] = self.extension();
+        Quartic::new([
+            self.from,
+            self.from + (chord + first) * 0.25,
+            self.from + chord * 0.5 + first * (1.0 / 3.0) + (last + top) * (1.0 / 6.0),
+            self.from + chord * 0.75 + (first + last) * 0.25,
+            self.to,
+        ])
     }
 
     /// The length to try next, for errors of `tolerance`: the error of a step
@@ -215,6 +239,7 @@ mod tests {
         for i in 1..8 {
             let t = i as f64 / 8.0;
             assert!(distance(s.at(t), point((0.4 * t).cos(), (0.4 * t).sin())) < 2e-6);
+            assert!(distance(s.at(t), s.shape().at(t)) < 1e-15);
         }
     }
 }

@@ -24,6 +24,21 @@ pub(crate) struct Half {
     pub(crate) stop: Stop,
 }
 
+/// What is told of each stretch of the line as it is laid.
+pub(crate) trait Keep {
+    /// A step, as far as this fraction of it.
+    fn step(&mut self, step: &Step, upto: f64);
+    /// A straight stretch: the last one before the boundary, or the step
+    /// aside that closes a line.
+    fn straight(&mut self, from: Point, to: Point);
+}
+
+/// For those who want points only.
+impl Keep for () {
+    fn step(&mut self, _: &Step, _: f64) {}
+    fn straight(&mut self, _: Point, _: Point) {}
+}
+
 /// Where the march stands.
 struct State {
     at: Point,
@@ -47,9 +62,17 @@ impl<F: DirectionField + ?Sized> March<'_, F> {
     /// Ends: an iteration either advances by its step or shrinks the next one,
     /// down to the least step, below which the march stops; and the length is
     /// bounded.
-    pub(crate) fn run<W>(&self, along: Point, sign: f64, track: &mut Track, watch: &mut W) -> Half
+    pub(crate) fn run<W, K>(
+        &self,
+        along: Point,
+        sign: f64,
+        track: &mut Track,
+        watch: &mut W,
+        keep: &mut K,
+    ) -> Half
     where
         W: FnMut(Point, Point) -> Option<Stop>,
+        K: Keep,
     {
         let options = self.options;
         let (min_step, min_cosine) = (options.min_step(), options.max_turn_deg.to_radians().cos());
@@ -99,7 +122,7 @@ impl<F: DirectionField + ?Sized> March<'_, F> {
                         Some(exit) => {
                             let ahead = norm(exit.point - state.at);
                             if let Some(stop) =
-                                self.approach(&mut state, length, ahead, exit, &mut points)
+                                self.approach(&mut state, length, ahead, exit, &mut points, keep)
                             {
                                 break stop;
                             }
@@ -117,7 +140,9 @@ impl<F: DirectionField + ?Sized> March<'_, F> {
             let bend = turn(state.along, step.direction()).abs();
             if let Some((ahead, exit)) = self.lay(&step, bend, &mut state.chord_cursor, &mut chord)
             {
-                if let Some(stop) = self.approach(&mut state, length, ahead, exit, &mut points) {
+                if let Some(stop) =
+                    self.approach(&mut state, length, ahead, exit, &mut points, keep)
+                {
                     break stop;
                 }
                 continue;
@@ -125,23 +150,22 @@ impl<F: DirectionField + ?Sized> March<'_, F> {
             let count = chord.len() as f64;
             let mut stopped = None;
             for (i, &to) in chord.iter().enumerate() {
-                if self.passes_seed(
-                    &step,
-                    track,
-                    head,
-                    to,
-                    (i as f64 / count, (i + 1) as f64 / count),
-                ) {
+                let part = (i as f64 / count, (i + 1) as f64 / count);
+                if let Some(t) = self.passes_seed(&step, track, head, to, part) {
                     points.push(self.seed);
+                    keep.step(&step, t);
+                    keep.straight(step.at(t), self.seed);
                     stopped = Some(Stop::ClosedLoop);
                     break;
                 }
                 stopped = watch(points.last().copied().unwrap_or(self.seed), to);
                 if stopped.is_some() {
+                    keep.step(&step, part.0);
                     break;
                 }
                 points.push(to);
                 if track.advance(&mut head, to) {
+                    keep.step(&step, part.1);
                     stopped = Some(Stop::SelfApproach);
                     break;
                 }
@@ -149,6 +173,7 @@ impl<F: DirectionField + ?Sized> March<'_, F> {
             if let Some(stop) = stopped {
                 break stop;
             }
+            keep.step(&step, 1.0);
             state.at = step.to;
             state.along = step.direction();
             state.gone += length;
@@ -194,13 +219,14 @@ impl<F: DirectionField + ?Sized> March<'_, F> {
     /// The boundary is about `ahead` away. Shortens the next step to end just
     /// before it; or, when the rest is so short that the curve cannot leave its
     /// tangent by half the tolerance, runs straight on to it and stops.
-    fn approach(
+    fn approach<K: Keep>(
         &self,
         state: &mut State,
         tried: f64,
         ahead: f64,
         exit: Exit,
         points: &mut Vec<Point>,
+        keep: &mut K,
     ) -> Option<Stop> {
         let options = self.options;
         let min_step = options.min_step();
@@ -216,6 +242,7 @@ impl<F: DirectionField + ?Sized> March<'_, F> {
             .field
             .exit(state.at, target, &mut state.chord_cursor)
             .unwrap_or(exit);
+        keep.straight(state.at, exit.point);
         self.finish(exit.point, points);
         Some(Stop::Boundary {
             ring: exit.ring,
@@ -261,8 +288,9 @@ impl<F: DirectionField + ?Sized> March<'_, F> {
         }
     }
 
-    /// Whether the line passes the seed, in its first direction, between the
-    /// two fractions of the step, the piece that ends at `to`.
+    /// The fraction of the step at which the line passes the seed, in its first
+    /// direction, if it does between the two given ones, on the piece that ends
+    /// at `to`.
     fn passes_seed(
         &self,
         step: &Step,
@@ -270,19 +298,19 @@ impl<F: DirectionField + ?Sized> March<'_, F> {
         mut head: Head,
         to: Point,
         part: (f64, f64),
-    ) -> bool {
+    ) -> Option<f64> {
         let first = head.start();
         track.look(&mut head, to);
         // A smooth loop without crossing turns by a full turn.
         if (head.angle.abs() - TAU).abs() > TAU / 8.0
             || norm(to - self.seed) > 2.0 * self.options.step
         {
-            return false;
+            return None;
         }
         let along = |t: f64| dot(step.at(t) - self.seed, first);
         let (mut low, mut high) = part;
         if !(along(low) < 0.0 && along(high) >= 0.0) {
-            return false;
+            return None;
         }
         for _ in 0..50 {
             let middle = 0.5 * (low + high);
@@ -292,6 +320,7 @@ impl<F: DirectionField + ?Sized> March<'_, F> {
                 high = middle;
             }
         }
-        dot(step.at(high) - self.seed, left(first)).abs() <= self.options.loop_tolerance
+        let aside = dot(step.at(high) - self.seed, left(first)).abs();
+        (aside <= self.options.loop_tolerance).then_some(high)
     }
 }
