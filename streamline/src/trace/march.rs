@@ -125,13 +125,9 @@ impl<F: DirectionField + ?Sized> March<'_, F> {
             let count = chord.len() as f64;
             let mut stopped = None;
             for (i, &to) in chord.iter().enumerate() {
-                if self.passes_seed(
-                    &step,
-                    track,
-                    head,
-                    to,
-                    (i as f64 / count, (i + 1) as f64 / count),
-                ) {
+                head.look(to);
+                let part = (i as f64 / count, (i + 1) as f64 / count);
+                if self.passes_seed(&step, &head, to, part) {
                     points.push(self.seed);
                     stopped = Some(Stop::ClosedLoop);
                     break;
@@ -262,17 +258,10 @@ impl<F: DirectionField + ?Sized> March<'_, F> {
     }
 
     /// Whether the line passes the seed, in its first direction, between the
-    /// two fractions of the step, the piece that ends at `to`.
-    fn passes_seed(
-        &self,
-        step: &Step,
-        track: &Track,
-        mut head: Head,
-        to: Point,
-        part: (f64, f64),
-    ) -> bool {
+    /// two fractions of the step, the piece that ends at `to`, where the head
+    /// looks.
+    fn passes_seed(&self, step: &Step, head: &Head, to: Point, part: (f64, f64)) -> bool {
         let first = head.start();
-        track.look(&mut head, to);
         // A smooth loop without crossing turns by a full turn.
         if (head.angle.abs() - TAU).abs() > TAU / 8.0
             || norm(to - self.seed) > 2.0 * self.options.step
