@@ -1,5 +1,6 @@
 //! The edges of a polygon under an index: inside or not, and where out.
 
+use super::clearance::Clearance;
 use super::Exit;
 use crate::vector::{cross, dot, is_finite, norm, point, Point};
 use geo_types::Polygon;
@@ -40,6 +41,7 @@ pub(super) struct Edges {
     /// Half width of the boundary: what rounding cannot tell apart.
     skin: f64,
     east: f64,
+    clearance: Clearance,
 }
 
 impl Edges {
@@ -65,6 +67,7 @@ impl Edges {
                 size: 0.0,
                 skin: 0.0,
                 east: 0.0,
+                clearance: Clearance::default(),
             };
         }
         let mut edges = Vec::new();
@@ -83,18 +86,28 @@ impl Edges {
         // Coordinates are rounded relative to their magnitude, not to the size
         // of the domain: at map coordinates the former is what counts.
         let magnitude = size + norm(centre);
-        Self {
+        let mut all = Self {
             tree: RTree::bulk_load(edges),
             centre,
             size,
             skin: 1e-12 * size + 4e-16 * magnitude,
             east: high.x - centre.x,
-        }
+            clearance: Clearance::default(),
+        };
+        all.clearance = Clearance::new(
+            all.tree.iter().map(|edge| (edge.a, edge.b)),
+            (low - centre, high - centre),
+            all.skin,
+            |p| all.holds(p),
+        );
+        all
     }
 
     pub(super) fn contains(&self, at: Point) -> bool {
         let p = at - self.centre;
-        is_finite(p) && self.holds(p)
+        self.clearance
+            .holds(p)
+            .unwrap_or_else(|| is_finite(p) && self.holds(p))
     }
 
     fn holds(&self, p: Point) -> bool {
@@ -126,6 +139,10 @@ impl Edges {
         let run = q - p;
         let length = norm(run);
         if !(is_finite(p) && is_finite(q) && length > 0.0) {
+            return None;
+        }
+        // Nothing to meet on the way.
+        if self.clearance.around(p) > length + 2.0 * self.skin {
             return None;
         }
         let skin = point(self.skin, self.skin);

@@ -1,5 +1,7 @@
 //! What a tracer needs of a field.
 
+mod cells;
+mod clearance;
 mod edges;
 mod formula;
 pub(crate) mod mesh;

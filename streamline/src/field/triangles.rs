@@ -1,17 +1,14 @@
 //! A cross field on a triangulation.
 
+use super::cells::{Cells, INSIDE};
 use super::edges::Edges;
 use super::mesh::{Mesh, MeshError};
 use super::{arm_nearest, Cursor, DirectionField, Exit};
-use crate::vector::{cross, is_finite, norm, Point};
+use crate::vector::{cross, dot, is_finite, left, norm, Point};
 use geo_types::{Coord, LineString, Polygon};
 use rstar::{primitives::GeomWithData, primitives::Rectangle, RTree, AABB};
 use std::collections::BTreeMap;
 use std::fmt;
-
-/// Barycentric coordinate above which a point is inside a triangle beyond
-/// doubt, whichever way it was reached.
-const INSIDE: f64 = 1e-9;
 
 /// A cross field given by one vector per vertex of a plane triangulation and
 /// interpolated between them.
@@ -41,6 +38,7 @@ const INSIDE: f64 = 1e-9;
 #[derive(Clone)]
 pub struct TriangleField {
     mesh: Mesh,
+    cells: Cells,
     tree: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
     border: Edges,
     rings: Vec<Vec<usize>>,
@@ -88,8 +86,10 @@ impl TriangleField {
             .map(|ring| LineString(ring.iter().map(|&v| mesh.points[v]).collect()));
         let outer = lines.next().unwrap_or(LineString(Vec::new()));
         let border = Edges::new(&Polygon::new(outer, lines.collect()));
+        let cells = Cells::new(&mesh);
         Self {
             mesh,
+            cells,
             tree,
             border,
             rings,
@@ -159,26 +159,49 @@ impl TriangleField {
     }
 
     /// The triangle that holds `at` with its barycentric coordinates there; on
-    /// a shared edge or vertex the first. The answer does not depend on `hint`.
-    pub(crate) fn locate(&self, at: Point, hint: usize) -> Option<(usize, [f64; 3])> {
+    /// a shared edge or vertex the first.
+    pub(crate) fn locate(&self, at: Point) -> Option<(usize, [f64; 3])> {
+        let (place, weights) = self.find(at, usize::MAX)?;
+        Some((self.cells.triangle(place), weights))
+    }
+
+    /// [`locate`](Self::locate) with places among the cells for triangles. The
+    /// answer does not depend on `hint`.
+    #[inline]
+    fn find(&self, at: Point, hint: usize) -> Option<(usize, [f64; 3])> {
         if !is_finite(at) {
             return None;
         }
-        if let Some(weights) = self
-            .mesh
-            .triangles
-            .get(hint)
-            .map(|_| self.weights(hint, at))
-        {
-            if weights.iter().all(|&w| w > INSIDE) {
-                return Some((hint, weights));
-            }
-        }
+        self.cells.find(at, hint).or_else(|| self.search(at))
+    }
+
+    /// The place of the triangle that holds `at`, and the vector there; `None`
+    /// outside, and where the field is singular.
+    #[inline]
+    fn vector(&self, at: Point, cursor: &mut Cursor) -> Option<(usize, Point)> {
+        let (place, weights) = self.find(at, cursor.0 as usize)?;
+        cursor.0 = place as u64;
+        let vectors = self.cells.vectors(place);
+        let sum = vectors[0] * weights[0] + vectors[1] * weights[1] + vectors[2] * weights[2];
+        // Below this the sum is rounding, and its angle means nothing.
+        let clear = || {
+            let largest = vectors.iter().map(|&v| norm(v)).fold(0.0, f64::max);
+            norm(sum) > 1e-14 * largest
+        };
+        // Nearly always far above it, which squares tell sooner.
+        let square = dot(sum, sum);
+        let far = vectors.iter().all(|&v| dot(v, v) < 1e6 * square) && square > 1e-200;
+        (far || clear()).then_some((place, sum))
+    }
+
+    /// The answer from the tree.
+    #[cold]
+    fn search(&self, at: Point) -> Option<(usize, [f64; 3])> {
         // Points on the border are rounded off it by as much as this.
         let skin = 1e-15 * (at.x.abs() + at.y.abs()) + 1e-12 * self.border.size;
         let near = AABB::from_corners([at.x - skin, at.y - skin], [at.x + skin, at.y + skin]);
         let holds = |t: usize| {
-            let weights = self.weights(t, at);
+            let weights = self.cells.weights(self.cells.place(t), at);
             let outside = (0..3).map(|i| {
                 let side = self.mesh.along(t, (i + 1) % 3);
                 let other = self.mesh.along(t, i);
@@ -191,16 +214,7 @@ impl TriangleField {
             .locate_in_envelope_intersecting(&near)
             .filter_map(|found| holds(found.data))
             .min_by_key(|found| (found.1.iter().any(|&w| w <= INSIDE), found.0))
-    }
-
-    fn weights(&self, triangle: usize, at: Point) -> [f64; 3] {
-        let [a, b, c] = self.mesh.triangles[triangle].map(|v| self.mesh.points[v]);
-        let area = cross(b - a, c - a);
-        [
-            cross(c - b, at - b) / area,
-            cross(a - c, at - c) / area,
-            cross(b - a, at - a) / area,
-        ]
+            .map(|(triangle, weights)| (self.cells.place(triangle), weights))
     }
 }
 
@@ -221,18 +235,28 @@ impl DirectionField for TriangleField {
         heading: Coord<f64>,
         cursor: &mut Cursor,
     ) -> Option<Coord<f64>> {
-        let (triangle, weights) = self.locate(at, cursor.0 as usize)?;
-        cursor.0 = triangle as u64;
-        let vectors = self.mesh.triangles[triangle].map(|v| self.mesh.vectors[v]);
-        let sum = vectors[0] * weights[0] + vectors[1] * weights[1] + vectors[2] * weights[2];
-        let largest = vectors.iter().map(|&v| norm(v)).fold(0.0, f64::max);
-        // Below this the sum is rounding, and its angle means nothing.
-        (norm(sum) > 1e-14 * largest).then(|| arm_nearest(0.25 * sum.y.atan2(sum.x), heading))
+        let (_, vector) = self.vector(at, cursor)?;
+        Some(arm_of(vector, heading))
     }
 
     fn exit(&self, from: Coord<f64>, to: Coord<f64>, _: &mut Cursor) -> Option<Exit> {
         self.border.exit(from, to)
     }
+
+    /// Exact: that of the interpolated field, which has a kink at every edge,
+    /// so that its divergence jumps there; on the edge itself it is that of the
+    /// first triangle.
+    fn divergence(&self, at: Coord<f64>, heading: Coord<f64>, cursor: &mut Cursor) -> Option<f64> {
+        let (place, vector) = self.vector(at, cursor)?;
+        let normal = left(arm_of(vector, heading));
+        let change = self.cells.slope(place, normal);
+        // The vector turns four times as fast as the arms.
+        Some(0.25 * cross(vector, change) / dot(vector, vector))
+    }
+}
+
+fn arm_of(vector: Point, heading: Point) -> Point {
+    arm_nearest(0.25 * vector.y.atan2(vector.x), heading)
 }
 
 #[cfg(test)]
@@ -283,15 +307,50 @@ mod tests {
         for i in 0..=8 {
             for j in 0..=8 {
                 let at = point(-1.0 + 0.25 * i as f64, -1.0 + 0.25 * j as f64);
-                let plain = field.locate(at, usize::MAX);
+                let plain = field.find(at, usize::MAX);
                 assert!(plain.is_some(), "{at:?}");
                 for hint in 0..field.triangles().len() {
-                    assert_eq!(field.locate(at, hint), plain);
+                    assert_eq!(field.find(at, hint), plain);
                 }
             }
         }
-        assert_eq!(field.locate(point(1.1, 0.0), 0), None);
-        assert_eq!(field.locate(point(f64::NAN, 0.0), 0), None);
+        assert_eq!(field.find(point(1.1, 0.0), 0), None);
+        assert_eq!(field.find(point(f64::NAN, 0.0), 0), None);
+    }
+
+    #[test]
+    fn divergence_is_that_of_the_interpolated_field() {
+        /// The same directions without the exact divergence.
+        struct Plain<'a>(&'a TriangleField);
+        impl DirectionField for Plain<'_> {
+            fn direction(&self, at: Point, heading: Point, cursor: &mut Cursor) -> Option<Point> {
+                self.0.direction(at, heading, cursor)
+            }
+            fn exit(&self, _: Point, _: Point, _: &mut Cursor) -> Option<Exit> {
+                None
+            }
+            fn difference_step(&self) -> f64 {
+                1e-5
+            }
+        }
+        let (field, cursor) = (polar(), &mut Cursor::default());
+        for i in 0..40 {
+            // Off all edges, on which the two may differ.
+            let u = 0.1 + 0.157 * i as f64;
+            let (at, heading) = (point(0.7 * u.cos(), 0.7 * u.sin()), point(1.0, 0.4));
+            let exact = field.divergence(at, heading, cursor).unwrap();
+            let plain = Plain(&field).divergence(at, heading, cursor).unwrap();
+            assert!(
+                (exact - plain).abs() < 1e-8 * (1.0 + exact.abs()),
+                "{exact} {plain}"
+            );
+            let back = field.divergence(at, heading * -1.0, cursor).unwrap();
+            assert_eq!(back, -exact);
+        }
+        assert_eq!(
+            field.divergence(point(3.0, 0.0), point(1.0, 0.0), cursor),
+            None
+        );
     }
 
     #[test]

@@ -17,24 +17,27 @@ use crate::vector::{dot, norm, Point};
 
 /// Row `i` holds the weights of the earlier stages in stage `i + 1`; the last
 /// row is also the solution of order 5.
-const STAGES: [&[f64]; 6] = [
-    &[1.0 / 5.0],
-    &[3.0 / 40.0, 9.0 / 40.0],
-    &[44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0],
-    &[
+const STAGES: [[f64; 6]; 6] = [
+    [1.0 / 5.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [3.0 / 40.0, 9.0 / 40.0, 0.0, 0.0, 0.0, 0.0],
+    [44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0, 0.0, 0.0, 0.0],
+    [
         19372.0 / 6561.0,
         -25360.0 / 2187.0,
         64448.0 / 6561.0,
         -212.0 / 729.0,
+        0.0,
+        0.0,
     ],
-    &[
+    [
         9017.0 / 3168.0,
         -355.0 / 33.0,
         46732.0 / 5247.0,
         49.0 / 176.0,
         -5103.0 / 18656.0,
+        0.0,
     ],
-    &[
+    [
         35.0 / 384.0,
         0.0,
         500.0 / 1113.0,
@@ -86,10 +89,13 @@ pub(crate) struct Step {
     stage: [Point; 7],
 }
 
-fn combine(weights: &[f64], stage: &[Point; 7]) -> Point {
+/// The sum of the first `N` stages, weighted. Its length is known when the code
+/// is made, so that no loop is left.
+#[inline(always)]
+fn combine<const N: usize>(weights: &[f64], stage: &[Point; 7]) -> Point {
     let mut sum = Point::zero();
-    for (&weight, &direction) in weights.iter().zip(stage) {
-        sum = sum + direction * weight;
+    for i in 0..N {
+        sum = sum + stage[i] * weights[i];
     }
     sum
 }
@@ -105,19 +111,27 @@ pub(crate) fn attempt<F: DirectionField + ?Sized>(
     cursor: &mut Cursor,
 ) -> Attempt {
     let mut stage = [along; 7];
-    let mut to = from;
-    for (i, weights) in STAGES.iter().enumerate() {
-        to = from + combine(weights, &stage) * length;
-        let Some(direction) = field.direction(to, along, cursor) else {
-            return Attempt::Blocked(to);
+    let mut to;
+    macro_rules! stage {
+        ($n:literal) => {
+            to = from + combine::<$n>(&STAGES[$n - 1], &stage) * length;
+            let Some(direction) = field.direction(to, along, cursor) else {
+                return Attempt::Blocked(to);
+            };
+            let cosine = dot(direction, along);
+            if cosine.is_nan() || cosine < min_cosine {
+                return Attempt::Turned;
+            }
+            stage[$n] = direction;
         };
-        let cosine = dot(direction, along);
-        if cosine.is_nan() || cosine < min_cosine {
-            return Attempt::Turned;
-        }
-        stage[i + 1] = direction;
     }
-    let error = length * norm(combine(&ERROR, &stage));
+    stage!(1);
+    stage!(2);
+    stage!(3);
+    stage!(4);
+    stage!(5);
+    stage!(6);
+    let error = length * norm(combine::<7>(&ERROR, &stage));
     Attempt::Done(Step {
         from,
         to,
@@ -146,7 +160,7 @@ impl Step {
         let chord = self.to - self.from;
         let first = self.stage[0] * self.length - chord;
         let last = chord - self.stage[6] * self.length - first;
-        let top = combine(&DENSE, &self.stage) * self.length;
+        let top = combine::<7>(&DENSE, &self.stage) * self.length;
         [chord, first, last, top]
     }
 

@@ -150,8 +150,9 @@ impl<F: DirectionField + ?Sized> March<'_, F> {
             let count = chord.len() as f64;
             let mut stopped = None;
             for (i, &to) in chord.iter().enumerate() {
+                head.look(to);
                 let part = (i as f64 / count, (i + 1) as f64 / count);
-                if let Some(t) = self.passes_seed(&step, track, head, to, part) {
+                if let Some(t) = self.passes_seed(&step, &head, to, part) {
                     points.push(self.seed);
                     keep.step(&step, t);
                     keep.straight(step.at(t), self.seed);
@@ -290,17 +291,9 @@ impl<F: DirectionField + ?Sized> March<'_, F> {
 
     /// The fraction of the step at which the line passes the seed, in its first
     /// direction, if it does between the two given ones, on the piece that ends
-    /// at `to`.
-    fn passes_seed(
-        &self,
-        step: &Step,
-        track: &Track,
-        mut head: Head,
-        to: Point,
-        part: (f64, f64),
-    ) -> Option<f64> {
+    /// at `to`, where the head looks.
+    fn passes_seed(&self, step: &Step, head: &Head, to: Point, part: (f64, f64)) -> Option<f64> {
         let first = head.start();
-        track.look(&mut head, to);
         // A smooth loop without crossing turns by a full turn.
         if (head.angle.abs() - TAU).abs() > TAU / 8.0
             || norm(to - self.seed) > 2.0 * self.options.step

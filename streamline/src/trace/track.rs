@@ -22,6 +22,18 @@ struct Piece {
     arc: (f64, f64),
 }
 
+/// [`turn`], to 2e-13: a chord of a smooth line turns by little, and the angles
+/// are only compared with eighths of a turn.
+fn small_turn(a: Point, b: Point) -> f64 {
+    let (ahead, aside) = (dot(a, b), cross(a, b));
+    if aside.abs() > 0.02 * ahead {
+        return turn(a, b);
+    }
+    let t = aside / ahead;
+    let square = t * t;
+    t * (1.0 - square * (1.0 / 3.0 - square * 0.2))
+}
+
 /// All pieces of one line, traced first forwards, then backwards.
 #[derive(Debug)]
 pub(crate) struct Track {
@@ -65,6 +77,15 @@ impl Head {
     /// The direction of travel at the seed.
     pub(crate) fn start(&self) -> Point {
         self.start
+    }
+
+    /// Turns the head to the chord towards `to`, without moving it.
+    pub(crate) fn look(&mut self, to: Point) {
+        let chord = to - self.last;
+        if norm(chord) > 0.0 {
+            self.angle += small_turn(self.direction, chord);
+            self.direction = chord;
+        }
     }
 }
 
@@ -114,19 +135,10 @@ impl Track {
         self.in_grid = self.pieces.len();
     }
 
-    /// Moves the head's angle on to the chord towards `to`, without moving it.
-    pub(crate) fn look(&self, head: &mut Head, to: Point) {
-        let chord = to - head.last;
-        if norm(chord) > 0.0 {
-            head.angle += turn(head.direction, chord);
-            head.direction = chord;
-        }
-    }
-
-    /// Adds the piece from the head to `to` and moves the head there; true if
-    /// the new piece runs alongside an older one.
+    /// Adds the piece from the head to `to`, towards which it looks already,
+    /// and moves the head there; true if the new piece runs alongside an older
+    /// one.
     pub(crate) fn advance(&mut self, head: &mut Head, to: Point) -> bool {
-        self.look(head, to);
         let length = norm(to - head.last);
         let arc = (head.arc, head.arc + head.sign * length);
         let piece = Piece {
@@ -190,9 +202,10 @@ mod tests {
         let at = |a: f64| point(a.cos(), a.sin()) * (100.0 - shrink * a / TAU);
         let mut track = Track::new(at(0.0), reach, 5.0);
         let mut head = Head::new(at(0.0), at(0.001) - at(0.0), 1.0);
-        (1..400)
-            .map(|i| i as f64 * 0.04)
-            .find(|&a| track.advance(&mut head, at(a)))
+        (1..400).map(|i| i as f64 * 0.04).find(|&a| {
+            head.look(at(a));
+            track.advance(&mut head, at(a))
+        })
     }
 
     #[test]
@@ -201,6 +214,16 @@ mod tests {
         assert!((TAU..TAU + 0.1).contains(&stop), "{stop}");
         assert_eq!(spiral(6.0, 4.5), None);
         assert_eq!(spiral(3.0, 0.0), None);
+    }
+
+    #[test]
+    fn small_turns_are_turns() {
+        for i in -400..400 {
+            let angle = i as f64 * 1e-3;
+            let b = point(angle.cos(), angle.sin()) * 7.0;
+            assert!((small_turn(point(3.0, 0.0), b) - angle).abs() < 2e-13);
+        }
+        assert_eq!(small_turn(point(1.0, 0.0), point(-2.0, 0.0)), TAU / 2.0);
     }
 
     #[test]
@@ -213,7 +236,9 @@ mod tests {
             let mut stopped = false;
             let mut go = |from: Point, to: Point| {
                 for i in 1..=40 {
-                    stopped |= track.advance(&mut head, from + (to - from) * (i as f64 / 40.0));
+                    let to = from + (to - from) * (i as f64 / 40.0);
+                    head.look(to);
+                    stopped |= track.advance(&mut head, to);
                 }
             };
             let (a, b) = (point(150.0, 0.0), point(150.0, -100.0));

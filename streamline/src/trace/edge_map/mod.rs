@@ -233,7 +233,7 @@ impl<'a> EdgeMaps<'a> {
 
     /// The triangle that holds a point, and its arm nearest to a heading.
     fn enter(&self, at: Point, heading: Point) -> Option<(usize, usize)> {
-        let (whole, _) = self.field.locate(at, usize::MAX)?;
+        let (whole, _) = self.field.locate(at)?;
         let parts = match self.cut[whole] {
             Some(more) => vec![whole, more, more + 1],
             None => vec![whole],
