@@ -19,7 +19,9 @@ mod vector;
 
 pub use geo_types;
 
-pub use candidates::{candidates, survey, CandidateOptions, Discarded, Seed, Survey, Unfit};
+pub use candidates::{
+    candidates, candidates_by, survey, survey_by, CandidateOptions, Discarded, Seed, Survey, Unfit,
+};
 pub use error::TraceError;
 pub use field::{
     arm_nearest, from_fn, Cursor, DirectionField, Exit, FromFn, MeshError, TriangleField,
@@ -34,4 +36,7 @@ pub use separatrix::{
 };
 pub use streamline::{Sample, Streamline};
 pub use tiles::{tiles, Dangling, HalfEdge, Tile, TileEdge, TileOptions, Tiling};
-pub use trace::{trace, trace_dense, Curve, EdgeLine, EdgeMaps, EdgeOptions, Stop, TraceOptions};
+pub use trace::{
+    trace, trace_dense, Curve, EdgeLine, EdgeMaps, EdgeOptions, EdgeTracer, RungeKutta, Stop,
+    TraceOptions, Tracer,
+};

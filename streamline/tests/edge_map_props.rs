@@ -8,7 +8,10 @@ use geo_types::coord;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_4, PI};
-use streamline::{trace, EdgeLine, EdgeMaps, EdgeOptions, Stop, TraceOptions, TriangleField};
+use streamline::{
+    survey_by, trace, CandidateOptions, EdgeLine, EdgeMaps, EdgeOptions, EdgeTracer, Seed, Stop,
+    Streamline, TraceOptions, TriangleField,
+};
 use support::*;
 
 /// Cells of a random mesh along one side, and half of that side in metres.
@@ -146,6 +149,29 @@ fn depth(s: &[P], t: &[P]) -> f64 {
     }
 }
 
+/// No two lines, nor one with itself, cross under 45 degrees.
+fn keep_apart<'a>(lines: impl Iterator<Item = &'a Streamline>) -> Result<(), TestCaseError> {
+    let mut pieces: Vec<&[P]> = lines.flat_map(|l| l.points.windows(2)).collect();
+    pieces.retain(|s| norm(s[1] - s[0]) > 4.0 * BLUR);
+    let low = |s: &[P]| s[0].x.min(s[1].x);
+    pieces.sort_by(|s, t| low(s).total_cmp(&low(t)));
+    for (i, s) in pieces.iter().enumerate() {
+        let right = s[0].x.max(s[1].x);
+        for t in pieces[i + 1..].iter().take_while(|t| low(t) <= right) {
+            if depth(s, t) > BLUR {
+                let angle = slant(s[1] - s[0], t[1] - t[0]);
+                let rounding = BLUR / norm(s[1] - s[0]).min(norm(t[1] - t[0]));
+                prop_assert!(
+                    angle > FRAC_PI_4 - rounding,
+                    "{} degrees: {s:?} {t:?}",
+                    angle.to_degrees()
+                );
+            }
+        }
+    }
+    Ok(())
+}
+
 proptest! {
     #![proptest_config(fields())]
 
@@ -155,18 +181,49 @@ proptest! {
         let options = EdgeOptions { max_length: 1500.0, self_approach: approach, loop_tolerance: 0.0, ..EdgeOptions::default() };
         let lines = lines(&field, &options);
         prop_assert!(lines.len() > 40, "{} lines", lines.len());
-        let mut pieces: Vec<&[P]> = lines.iter().flat_map(|l| l.line.points.windows(2)).collect();
-        pieces.retain(|s| norm(s[1] - s[0]) > 4.0 * BLUR);
-        let low = |s: &[P]| s[0].x.min(s[1].x);
-        pieces.sort_by(|s, t| low(s).total_cmp(&low(t)));
-        for (i, s) in pieces.iter().enumerate() {
-            let right = s[0].x.max(s[1].x);
-            for t in pieces[i + 1..].iter().take_while(|t| low(t) <= right) {
-                if depth(s, t) > BLUR {
-                    let angle = slant(s[1] - s[0], t[1] - t[0]);
-                    let rounding = BLUR / norm(s[1] - s[0]).min(norm(t[1] - t[0]));
-                    prop_assert!(angle > FRAC_PI_4 - rounding, "{} degrees: {s:?} {t:?}", angle.to_degrees());
-                }
+        keep_apart(lines.iter().map(|l| &l.line))?;
+    }
+
+    /// Candidates by the second tracer: the law holds between all of them, and
+    /// each orientation of each seed is covered or accounted for.
+    #[test]
+    fn candidates_keep_apart_and_cover_the_seeds(field in field(), seed: u64) {
+        let maps = EdgeMaps::new(&field);
+        let tracer = EdgeTracer {
+            maps: &maps,
+            options: EdgeOptions { max_length: 1500.0, loop_tolerance: 0.0, ..EdgeOptions::default() },
+        };
+        let seeds: Vec<Seed> = field.triangles().iter().enumerate().step_by(5).map(|(k, corners)| {
+            let [a, b, c] = corners.map(|v| field.points()[v]);
+            let along = coord! { x: (k as f64).cos(), y: (k as f64).sin() };
+            Seed {
+                at: a * 0.3 + b * 0.36 + c * 0.34,
+                directions: [along, coord! { x: -along.y, y: along.x }],
+            }
+        }).collect();
+        let options = CandidateOptions {
+            separation: 12.0,
+            seed,
+            keep_singular: true,
+            keep_closed: true,
+            ..CandidateOptions::default()
+        };
+        let all = survey_by(&tracer, &seeds, &options).unwrap();
+        let aside = all.discarded.iter().filter_map(|d| d.line.as_ref());
+        keep_apart(all.lines.iter().chain(aside))?;
+        let placed: Vec<&Streamline> = all.lines.iter()
+            .chain(all.discarded.iter().filter(|d| d.switches_off()).filter_map(|d| d.line.as_ref()))
+            .collect();
+        for (i, seed) in seeds.iter().enumerate() {
+            for family in 0..2 {
+                let own = all.lines.iter().any(|l| (l.seed_index, usize::from(l.family)) == (i, family))
+                    || all.discarded.iter().any(|d| (d.seed_index, usize::from(d.family)) == (i, family));
+                let near = placed.iter().any(|line| {
+                    let (gap, tangent) = nearest_piece(line, seed.at);
+                    let alike = seed.directions.map(|d| dot(d, tangent).abs());
+                    gap <= 12.0 * (1.0 + 1e-9) && alike[family] >= alike[1 - family] * (1.0 - 1e-9)
+                });
+                prop_assert!(own || near, "seed {i}, orientation {family}");
             }
         }
     }

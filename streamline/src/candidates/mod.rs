@@ -6,7 +6,7 @@ use crate::error::TraceError;
 use crate::field::DirectionField;
 use crate::random::Stream;
 use crate::streamline::Streamline;
-use crate::trace::{trace_valid, Stop, TraceOptions};
+use crate::trace::{RungeKutta, Stop, TraceOptions, Tracer};
 use crate::vector::{dot, is_finite, unit};
 use geo_types::Coord;
 use grid::SeedGrid;
@@ -174,6 +174,21 @@ pub fn candidates<F: DirectionField + ?Sized>(
     Ok(survey(field, seeds, options)?.lines)
 }
 
+/// [`candidates`] by any [`Tracer`]: by [`EdgeTracer`](crate::EdgeTracer), for
+/// one, they can neither merge nor cross under 45 degrees. `options.trace` has
+/// no effect.
+///
+/// # Errors
+///
+/// As [`candidates`], and what the tracer finds wrong.
+pub fn candidates_by<T: Tracer + ?Sized>(
+    tracer: &T,
+    seeds: &[Seed],
+    options: &CandidateOptions,
+) -> Result<Vec<Streamline>, TraceError> {
+    Ok(survey_by(tracer, seeds, options)?.lines)
+}
+
 /// [`candidates`] with an account of what was set aside.
 ///
 /// # Errors
@@ -181,6 +196,24 @@ pub fn candidates<F: DirectionField + ?Sized>(
 /// As [`candidates`].
 pub fn survey<F: DirectionField + ?Sized>(
     field: &F,
+    seeds: &[Seed],
+    options: &CandidateOptions,
+) -> Result<Survey, TraceError> {
+    options.trace.validate()?;
+    let tracer = RungeKutta {
+        field,
+        options: options.trace,
+    };
+    survey_by(&tracer, seeds, options)
+}
+
+/// [`survey`] by any [`Tracer`]; `options.trace` has no effect.
+///
+/// # Errors
+///
+/// As [`candidates`], and what the tracer finds wrong.
+pub fn survey_by<T: Tracer + ?Sized>(
+    tracer: &T,
     seeds: &[Seed],
     options: &CandidateOptions,
 ) -> Result<Survey, TraceError> {
@@ -205,18 +238,22 @@ pub fn survey<F: DirectionField + ?Sized>(
             return Ok(survey);
         }
         let traced = trace_all(&batch, |(i, family)| {
-            trace_valid(field, places[i], directions[i][family], &options.trace)
+            tracer.trace(places[i], seeds[i].directions[family])
         });
         for ((i, family), line) in batch.into_iter().zip(traced) {
             if !active[i][family] {
                 continue;
             }
             active[i][family] = false;
-            let line = line.map(|line| Streamline {
-                family: family as u8,
-                seed_index: i,
-                ..line
-            });
+            let line = match line {
+                Ok(line) => Some(Streamline {
+                    family: family as u8,
+                    seed_index: i,
+                    ..line
+                }),
+                Err(TraceError::NoDirection { .. }) => None,
+                Err(error) => return Err(error),
+            };
             let reason = judge(line.as_ref(), options);
             let aside = reason.map(|reason| Discarded {
                 seed_index: i,
@@ -271,7 +308,6 @@ fn validate(
     seeds: &[Seed],
     options: &CandidateOptions,
 ) -> Result<Vec<[Coord<f64>; 2]>, TraceError> {
-    options.trace.validate()?;
     if !(options.separation > 0.0 && options.separation.is_finite()) {
         let (name, value) = ("separation", options.separation);
         return Err(TraceError::BadOption {

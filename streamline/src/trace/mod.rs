@@ -7,12 +7,14 @@ mod march;
 mod options;
 mod quartic;
 mod stop;
+mod tracer;
 mod track;
 
 pub use curve::Curve;
 pub use edge_map::{EdgeLine, EdgeMaps, EdgeOptions};
 pub use options::TraceOptions;
 pub use stop::Stop;
+pub use tracer::{EdgeTracer, RungeKutta, Tracer};
 
 use crate::error::TraceError;
 use crate::field::{Cursor, DirectionField};
@@ -89,7 +91,8 @@ pub fn trace<F: DirectionField + ?Sized>(
     options: &TraceOptions,
 ) -> Result<Streamline, TraceError> {
     let heading = checked(seed, heading, options)?;
-    trace_valid(field, seed, heading, options).ok_or_else(|| TraceError::no_direction(seed))
+    trace_watched(field, seed, heading, options, &mut |_, _, _| None)
+        .ok_or_else(|| TraceError::no_direction(seed))
 }
 
 /// The heading as a unit vector, if all arguments are in order.
@@ -153,20 +156,10 @@ pub fn trace_dense<F: DirectionField + ?Sized>(
     Ok(Curve::new(line, forward, backward))
 }
 
-/// [`trace`] for arguments that have been checked; `None` if the field has no
-/// direction at the seed.
-pub(crate) fn trace_valid<F: DirectionField + ?Sized>(
-    field: &F,
-    seed: Coord<f64>,
-    heading: Coord<f64>,
-    options: &TraceOptions,
-) -> Option<Streamline> {
-    trace_watched(field, seed, heading, options, &mut |_, _, _| None)
-}
-
-/// [`trace_valid`] with a watchman: it is shown each new point, after the one
-/// before it and the sign of the half (1 forwards, -1 backwards), and where it
-/// names a reason the half ends before that point.
+/// [`trace`] for arguments that have been checked, with a watchman: it is shown
+/// each new point, after the one before it and the sign of the half (1 forwards,
+/// -1 backwards), and where it names a reason the half ends before that point.
+/// `None` if the field has no direction at the seed.
 pub(crate) fn trace_watched<F, W>(
     field: &F,
     seed: Coord<f64>,
