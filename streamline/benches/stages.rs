@@ -1,4 +1,5 @@
-//! Runge-Kutta stages a second on a mesh: each is one look at the field.
+//! Runge-Kutta stages a second on a mesh: each is one look at the field. And
+//! edges of the mesh a second by the second tracer.
 //!
 //! The rate that criterion reports counts stages, and what they cost includes
 //! all else that a line takes: error control, dense output, boundary exits,
@@ -8,7 +9,11 @@ use criterion::{criterion_group, criterion_main, BenchmarkId, Criterion, Through
 use geo_types::{coord, Coord};
 use std::hint::black_box;
 use std::sync::atomic::{AtomicU64, Ordering};
-use streamline::{trace, Cursor, DirectionField, Exit, TraceOptions, TriangleField};
+use streamline::{
+    trace, Cursor, DirectionField, EdgeMaps, EdgeOptions, Exit, TraceOptions, TriangleField,
+};
+
+const EAST: Coord<f64> = Coord { x: 1.0, y: 0.0 };
 
 fn angle(at: Coord<f64>) -> f64 {
     0.3 + 0.5 * (at.x / 130.0 + at.y / 410.0).sin() + 0.4 * (at.y / 170.0 - at.x / 600.0).cos()
@@ -71,7 +76,7 @@ impl DirectionField for Counted<'_> {
 fn stages(c: &mut Criterion) {
     let mut group = c.benchmark_group("Runge-Kutta stages");
     group.sample_size(20);
-    let (heading, options) = (coord! { x: 1.0, y: 0.0 }, TraceOptions::default());
+    let (heading, options) = (EAST, TraceOptions::default());
     for (name, half, side) in [
         ("10^5 vertices on 10 km2", 1581.0, 317),
         ("10^5 vertices on 1 km2", 500.0, 317),
@@ -98,5 +103,37 @@ fn stages(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, stages);
+/// Preparing the edge maps of a mesh, and lines through them by the edges that
+/// they cross.
+fn edge_maps(c: &mut Criterion) {
+    let mut group = c.benchmark_group("edge maps");
+    group.sample_size(10);
+    let field = mesh(500.0, 224);
+    group.throughput(Throughput::Elements(field.triangles().len() as u64));
+    group.bench_function("prepare 10^5 triangles", |b| {
+        b.iter(|| EdgeMaps::new(black_box(&field)));
+    });
+    let maps = EdgeMaps::new(&field);
+    let place = |i: usize| 450.0 * (i as f64 / 50.0 - 1.0);
+    let seeds: Vec<_> = (0..100)
+        .map(|i| coord! { x: place(i * 37 % 100), y: place(i * 71 % 100) })
+        .collect();
+    for (name, self_approach) in [("lines", 4.5), ("lines, self-approach allowed", 0.0)] {
+        let options = EdgeOptions {
+            self_approach,
+            ..EdgeOptions::default()
+        };
+        let lines = || {
+            let all = seeds.iter().map(|&seed| maps.trace(seed, EAST, &options));
+            all.map(|line| line.map_or(0, |line| line.edges.len()))
+                .sum()
+        };
+        let crossed: usize = lines();
+        group.throughput(Throughput::Elements(crossed as u64));
+        group.bench_function(name, |b| b.iter(lines));
+    }
+    group.finish();
+}
+
+criterion_group!(benches, stages, edge_maps);
 criterion_main!(benches);

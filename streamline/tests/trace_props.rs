@@ -232,6 +232,60 @@ proptest! {
         prop_assert_eq!(simple.points.first(), line.points.first());
         prop_assert_eq!(simple.points.last(), line.points.last());
     }
+
+    /// Smoothing moves no point farther than allowed, keeps the ends, makes no
+    /// piece longer where nothing limits it, and goes with the line wherever
+    /// that is moved: on any polyline, however ragged.
+    #[test]
+    fn smoothing_is_bounded_and_moves_with_the_line(
+        steps in prop::collection::vec((-9.0..9.0_f64, -9.0..9.0_f64, 0..4_usize), 3..40),
+        rounds in 0..30_usize,
+        shift in 0.01..8.0_f64,
+        motion in motion(),
+    ) {
+        let mut at = coord! { x: 0.0, y: 0.0 };
+        let mut points = vec![at];
+        for (x, y, kind) in steps {
+            // Some points twice, some steps tiny.
+            let scale = [1.0, 1.0, 1e-6, 0.0][kind];
+            at = at + coord! { x: x, y: y } * scale;
+            points.push(at);
+        }
+        let line = Streamline {
+            seed: points[0],
+            points,
+            start: Stop::FieldEnd,
+            end: Stop::FieldEnd,
+            family: 0,
+            seed_index: 0,
+        };
+        let smooth = line.smooth(rounds, shift);
+        prop_assert_eq!(smooth.points.len(), line.points.len());
+        prop_assert_eq!(smooth.points.first(), line.points.first());
+        prop_assert_eq!(smooth.points.last(), line.points.last());
+        for (&p, &q) in line.points.iter().zip(&smooth.points) {
+            prop_assert!(norm(q - p) <= shift * (1.0 + 1e-12));
+            prop_assert!(line.distance_to(q) <= shift * (1.0 + 1e-12));
+        }
+        let free = line.smooth(rounds, f64::INFINITY);
+        for (p, q) in line.points.windows(2).zip(free.points.windows(2)) {
+            prop_assert!(norm(q[1] - q[0]) <= norm(p[1] - p[0]) + 1e-12);
+        }
+        let moved = Streamline {
+            points: line.points.iter().map(|&p| motion.apply(p)).collect(),
+            ..line.clone()
+        };
+        // Rounding at map coordinates is 1e-9 m, and no round magnifies it but
+        // where two points are as near as that: there the weights of the two
+        // pieces are rounding themselves, and a point may lie anywhere on the
+        // chord of its neighbours, which is as short as their distance.
+        let least = line.points.windows(2).map(|p| norm(p[1] - p[0])).fold(f64::INFINITY, f64::min);
+        if least > 1e-3 {
+            for (&p, &q) in smooth.points.iter().zip(&moved.smooth(rounds, shift).points) {
+                prop_assert!(norm(motion.apply(p) - q) < 1e-6 * (1.0 + rounds as f64));
+            }
+        }
+    }
 }
 
 /// What a plain loop over all pairs of pieces says about running alongside.
