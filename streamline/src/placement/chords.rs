@@ -7,8 +7,15 @@ use crate::vector::{cross, dot, norm, point, Point};
 const ALONGSIDE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Cosine of 60 degrees: what may come alongside before the next look.
 const SOON: f64 = 0.5;
+/// Cosine of 75 degrees, and of the 15 degrees by which a line may turn until
+/// what came within 75 degrees of it comes within 60.
+const LATER: f64 = 0.2588;
+const TURN: f64 = 0.966;
 /// Most cells of the grid; beyond it cells grow.
 const MOST_CELLS: usize = 1 << 24;
+
+/// Ends the list of a cell.
+const END: u32 = u32::MAX;
 
 /// A stretch of a line, replaced by its chord.
 #[derive(Clone, Copy, Debug)]
@@ -17,12 +24,14 @@ pub(super) struct Chord {
     /// Unit vector.
     along: Point,
     half: f64,
-    /// Which line.
-    line: u32,
-    /// Which family that line was started in.
-    family: u8,
     /// Arc length of the middle from the line's seed, negative behind it.
     arc: f64,
+    /// Which line.
+    line: u32,
+    /// The chord before it in its cell.
+    next: u32,
+    /// Which family that line was started in.
+    family: u8,
 }
 
 impl Chord {
@@ -33,9 +42,10 @@ impl Chord {
             middle: (a + b) / 2.0,
             along: (b - a) / length,
             half: 0.5 * length,
-            line,
-            family,
             arc,
+            line,
+            next: END,
+            family,
         })
     }
 
@@ -71,18 +81,110 @@ pub(super) struct Nearest {
     pub(super) family: u8,
 }
 
-/// Chords by the cell of their middle. Cells grow where the lines go; nothing
-/// depends on their number.
+/// The nearest of a number of chords.
+struct Search {
+    p: Point,
+    along: Point,
+    own: Option<Own>,
+    min_cosine: f64,
+    /// Square of the distance within which a chord would be the nearest so far.
+    limit: f64,
+    best: Option<(bool, u8)>,
+}
+
+impl Search {
+    /// Within `reach` of `p`, among those that run within 45 degrees of the unit
+    /// vector `along`; between 45 and 60 degrees too if `soon`. Of an own chord
+    /// only what `p` is abreast of counts, so that a closing loop may come up
+    /// to its seed from behind.
+    fn new(p: Point, along: Point, reach: f64, own: Option<Own>, soon: bool) -> Self {
+        Self {
+            p,
+            along,
+            own,
+            min_cosine: if soon { SOON } else { ALONGSIDE },
+            limit: reach * reach,
+            best: None,
+        }
+    }
+
+    #[inline]
+    fn look(&mut self, chord: &Chord) {
+        if dot(chord.along, self.along).abs() <= self.min_cosine {
+            return;
+        }
+        let (square, foot) = chord.offset(self.p);
+        if square >= self.limit {
+            return;
+        }
+        let mut is_own = false;
+        if let Some(own) = self.own.filter(|own| own.line == chord.line) {
+            if (own.arc - chord.arc).abs() < own.gap + chord.half || foot.abs() > chord.half {
+                return;
+            }
+            is_own = true;
+        }
+        self.limit = square;
+        self.best = Some((is_own, chord.family));
+    }
+
+    fn nearest(self) -> Option<Nearest> {
+        self.best.map(|(own, family)| Nearest {
+            distance: self.limit.sqrt(),
+            own,
+            family,
+        })
+    }
+}
+
+/// The chords near a line's head, gathered once for a stretch of it.
+#[derive(Debug, Default)]
+pub(super) struct Vicinity {
+    chords: Vec<Chord>,
+    centre: Point,
+    along: Point,
+    /// How far from the centre looks are answered; none at first.
+    radius: f64,
+}
+
+impl Vicinity {
+    /// Whether looks from `p` along the unit vector `along` are answered, for
+    /// the reach and the line that it was gathered for.
+    pub(super) fn serves(&self, p: Point, along: Point) -> bool {
+        let off = p - self.centre;
+        dot(off, off) <= self.radius * self.radius && dot(along, self.along).abs() >= TURN
+    }
+
+    /// [`Chords::nearest`].
+    pub(super) fn nearest(
+        &self,
+        p: Point,
+        along: Point,
+        reach: f64,
+        own: Own,
+        soon: bool,
+    ) -> Option<Nearest> {
+        let mut search = Search::new(p, along, reach, Some(own), soon);
+        for chord in &self.chords {
+            search.look(chord);
+        }
+        search.nearest()
+    }
+}
+
+/// Chords by the cell of their middle. The grid grows where the lines go;
+/// nothing depends on its size.
 #[derive(Debug)]
 pub(super) struct Chords {
     cell: f64,
     low: Point,
     columns: usize,
     rows: usize,
-    cells: Vec<Vec<Chord>>,
+    /// The last chord of each cell, which names the one before it.
+    last: Vec<u32>,
+    /// In order of insertion, so that the last ones can be taken back.
+    chords: Vec<Chord>,
     longest_half: f64,
-    /// Middles in order of insertion, to take the last ones back.
-    order: Vec<Point>,
 }
 
 impl Chords {
@@ -93,9 +195,9 @@ impl Chords {
             low,
             columns: 0,
             rows: 0,
-            cells: Vec::new(),
+            last: Vec::new(),
+            chords: Vec::new(),
             longest_half: 0.0,
-            order: Vec::new(),
         };
         chords.lay_out(low, high);
         chords
@@ -107,15 +209,19 @@ impl Chords {
         while (width / self.cell + 1.0) * (height / self.cell + 1.0) > MOST_CELLS as f64 {
             self.cell *= 2.0;
         }
-        let old = std::mem::take(&mut self.cells);
         self.low = low;
         self.columns = (width / self.cell) as usize + 1;
         self.rows = (height / self.cell) as usize + 1;
-        self.cells = vec![Vec::new(); self.columns * self.rows];
-        for chord in old.into_iter().flatten() {
-            let index = self.index(chord.middle);
-            self.cells[index].push(chord);
+        self.last = vec![END; self.columns * self.rows];
+        for i in 0..self.chords.len() {
+            self.link(i);
         }
+    }
+
+    /// Puts a chord at the head of its cell's list.
+    fn link(&mut self, i: usize) {
+        let index = self.index(self.chords[i].middle);
+        self.chords[i].next = std::mem::replace(&mut self.last[index], i as u32);
     }
 
     fn index(&self, p: Point) -> usize {
@@ -129,7 +235,7 @@ impl Chords {
     }
 
     pub(super) fn len(&self) -> usize {
-        self.order.len()
+        self.chords.len()
     }
 
     pub(super) fn push(&mut self, chord: Chord) {
@@ -163,80 +269,94 @@ impl Chords {
             );
             self.lay_out(new_low, new_high);
         }
-        let index = self.index(p);
-        self.cells[index].push(chord);
-        self.order.push(p);
+        self.chords.push(chord);
+        self.link(self.chords.len() - 1);
         self.longest_half = self.longest_half.max(chord.half);
     }
 
     /// Takes back all but the first `len` chords.
     pub(super) fn truncate(&mut self, len: usize) {
-        while self.order.len() > len {
-            if let Some(middle) = self.order.pop() {
-                let index = self.index(middle);
-                let cell = &mut self.cells[index];
-                // The last one, unless the grid was laid out anew since.
-                if let Some(i) = cell.iter().rposition(|c| c.middle == middle) {
-                    cell.remove(i);
-                }
+        while self.chords.len() > len {
+            if let Some(chord) = self.chords.pop() {
+                let index = self.index(chord.middle);
+                self.last[index] = chord.next;
             }
         }
     }
 
     /// The nearest chord within `reach` of `p` that runs within 45 degrees of
-    /// the unit vector `along`; between 45 and 60 degrees too if `soon`. Of an
-    /// own chord only what `p` is abreast of counts, so that a closing loop may
-    /// come up to its seed from behind.
-    pub(super) fn nearest(
+    /// the unit vector `along`.
+    pub(super) fn nearest(&self, p: Point, along: Point, reach: f64) -> Option<Nearest> {
+        let mut search = Search::new(p, along, reach, None, false);
+        let wide = reach + self.longest_half;
+        let (bottom, top) = self.span(p.y, wide, self.low.y, self.rows);
+        let middle = self.span(p.y, 0.0, self.low.y, self.rows).0;
+        // Upwards from the middle, then downwards: what was found narrows the
+        // rest.
+        for y in (middle..=top).chain((bottom..middle).rev()) {
+            let wide = search.limit.sqrt() + self.longest_half;
+            self.look_along(y, p, wide, |chord| search.look(chord));
+        }
+        search.nearest()
+    }
+
+    /// Gathers the chords that looks need which reach as far as `reach`, from
+    /// anywhere within `radius` of `p`, by a line that has not turned by more
+    /// than 15 degrees from `along`. Chords that are added later are not among
+    /// them.
+    pub(super) fn gather(
         &self,
         p: Point,
         along: Point,
         reach: f64,
-        own: Option<Own>,
-        soon: bool,
-    ) -> Option<Nearest> {
-        let min_cosine = if soon { SOON } else { ALONGSIDE };
-        let mut best: Option<(f64, bool, u8)> = None;
-        let mut limit = reach * reach;
-        self.visit(p, reach, |chord| {
-            if dot(chord.along, along).abs() <= min_cosine {
-                return;
-            }
-            let (square, foot) = chord.offset(p);
-            if square >= limit {
-                return;
-            }
-            let mut is_own = false;
-            if let Some(own) = own.filter(|own| own.line == chord.line) {
-                if (own.arc - chord.arc).abs() < own.gap + chord.half || foot.abs() > chord.half {
-                    return;
+        radius: f64,
+        vicinity: &mut Vicinity,
+    ) {
+        (vicinity.centre, vicinity.along, vicinity.radius) = (p, along, radius);
+        vicinity.chords.clear();
+        let wide = reach + radius + self.longest_half;
+        let (bottom, top) = self.span(p.y, wide, self.low.y, self.rows);
+        for y in bottom..=top {
+            self.look_along(y, p, wide, |chord| {
+                let off = chord.middle - p;
+                let near = reach + radius + chord.half;
+                if dot(off, off) <= near * near && dot(chord.along, along).abs() >= LATER {
+                    vicinity.chords.push(*chord);
                 }
-                is_own = true;
-            }
-            limit = square;
-            best = Some((square, is_own, chord.family));
-        });
-        best.map(|(square, own, family)| Nearest {
-            distance: square.sqrt(),
-            own,
-            family,
-        })
+            });
+        }
     }
 
-    fn visit(&self, p: Point, reach: f64, mut look: impl FnMut(&Chord)) {
-        let wide = reach + self.longest_half;
-        let span = |from: f64, low: f64, count: usize| {
-            let first = ((from - wide - low) / self.cell).max(0.0) as usize;
-            let last = ((from + wide - low) / self.cell).max(0.0) as usize;
-            (first.min(count - 1), last.min(count - 1))
+    /// The cells of one row that a circle of radius `wide` around `p` meets.
+    fn look_along(&self, y: usize, p: Point, wide: f64, mut look: impl FnMut(&Chord)) {
+        let bottom = self.low.y + y as f64 * self.cell;
+        // The first and the last row also hold what lies a hair beyond them.
+        let above = if y == 0 { 0.0 } else { (bottom - p.y).max(0.0) };
+        let below = if y + 1 == self.rows {
+            0.0
+        } else {
+            (p.y - bottom - self.cell).max(0.0)
         };
-        let (x0, x1) = span(p.x, self.low.x, self.columns);
-        let (y0, y1) = span(p.y, self.low.y, self.rows);
-        for y in y0..=y1 {
-            for cell in &self.cells[y * self.columns + x0..=y * self.columns + x1] {
-                cell.iter().for_each(&mut look);
+        let off = above.max(below);
+        if off > wide {
+            return;
+        }
+        let half = (wide * wide - off * off).sqrt() * (1.0 + 1e-9);
+        let (first, last) = self.span(p.x, half, self.low.x, self.columns);
+        for &head in &self.last[y * self.columns + first..=y * self.columns + last] {
+            let mut i = head;
+            while let Some(chord) = self.chords.get(i as usize) {
+                look(chord);
+                i = chord.next;
             }
         }
+    }
+
+    /// The first and last of a row of cells within `wide` of `from`.
+    fn span(&self, from: f64, wide: f64, low: f64, count: usize) -> (usize, usize) {
+        let first = ((from - wide - low) / self.cell).max(0.0) as usize;
+        let last = ((from + wide - low) / self.cell).max(0.0) as usize;
+        (first.min(count - 1), last.min(count - 1))
     }
 }
 
@@ -266,7 +386,7 @@ mod tests {
         for i in 0..200 {
             let p = point((i * 37 % 450) as f64 - 110.0, (i * 91 % 440) as f64 - 220.0);
             let along = point((i as f64).cos(), (i as f64).sin());
-            let found = chords.nearest(p, along, 25.0, None, false);
+            let found = chords.nearest(p, along, 25.0);
             let expected = all
                 .iter()
                 .filter(|(a, b)| dot(*b - *a, along).abs() > ALONGSIDE * distance(*a, *b))
@@ -283,6 +403,35 @@ mod tests {
     }
 
     #[test]
+    fn a_vicinity_answers_like_the_whole() {
+        let mut chords = Chords::new(point(0.0, 0.0), point(10.0, 10.0), 9.0);
+        for (i, (a, b)) in random_chords().into_iter().enumerate() {
+            chords.push(Chord::new(a, b, i as u32, 0, 0.0).unwrap());
+        }
+        let own = Own {
+            line: u32::MAX,
+            arc: 0.0,
+            gap: 0.0,
+        };
+        let mut vicinity = Vicinity::default();
+        for i in 0..100 {
+            let p = point((i * 37 % 300) as f64, (i * 91 % 300) as f64 - 100.0);
+            let way = |u: f64| point(u.cos(), u.sin());
+            chords.gather(p, way(i as f64), 15.0, 8.0, &mut vicinity);
+            for j in 0..20 {
+                let q = p + way(j as f64) * (0.4 * j as f64);
+                let along = way(i as f64 + 0.025 * (j - 10) as f64);
+                assert!(vicinity.serves(q, along));
+                let some = vicinity.nearest(q, along, 15.0, own, false);
+                let all = chords.nearest(q, along, 15.0);
+                assert_eq!(some.map(|n| n.distance), all.map(|n| n.distance));
+            }
+            assert!(!vicinity.serves(p + point(8.1, 0.0), way(i as f64)));
+            assert!(!vicinity.serves(p, way(i as f64 + 0.3)));
+        }
+    }
+
+    #[test]
     fn truncate_takes_back_the_last() {
         let all = random_chords();
         let mut chords = Chords::new(point(0.0, 0.0), point(0.0, 0.0), 9.0);
@@ -291,9 +440,15 @@ mod tests {
         }
         chords.truncate(10);
         assert_eq!(chords.len(), 10);
-        let left: usize = chords.cells.iter().map(Vec::len).sum();
+        let mut left = 0;
+        for &head in &chords.last {
+            let mut i = head;
+            while let Some(chord) = chords.chords.get(i as usize) {
+                left += 1;
+                i = chord.next;
+            }
+        }
         assert_eq!(left, 10);
-        assert!(chords.cells.iter().flatten().all(|c| c.line < 10));
         assert!(Chord::new(all[0].0, all[0].0, 0, 0, 0.0).is_none());
     }
 
@@ -307,12 +462,17 @@ mod tests {
                 arc,
                 gap: 30.0,
             };
-            chords.nearest(p, point(1.0, 0.0), 10.0, Some(own), false)
+            let mut vicinity = Vicinity::default();
+            let east = point(1.0, 0.0);
+            assert!(!vicinity.serves(p, east));
+            chords.gather(p, east, 10.0, 1.0, &mut vicinity);
+            assert!(vicinity.serves(p, east));
+            vicinity.nearest(p, east, 10.0, own, false)
         };
         assert!(ask(point(-1.0, 0.5), 100.0).is_none());
         assert!(ask(point(1.0, 0.5), 20.0).is_none());
         assert!(ask(point(1.0, 0.5), 100.0).unwrap().own);
-        let crossing = chords.nearest(point(1.0, 1.0), point(0.0, 1.0), 10.0, None, true);
+        let crossing = chords.nearest(point(1.0, 1.0), point(0.0, 1.0), 10.0);
         assert!(crossing.is_none());
     }
 }

@@ -139,9 +139,7 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
         let [first, second] = seed.directions;
         let reach = self.spacing.widest(seed.at);
         let family_along = |way: Point| {
-            let near = self
-                .chords
-                .nearest(seed.at, unit(way)?, reach, None, false)?;
+            let near = self.chords.nearest(seed.at, unit(way)?, reach)?;
             Some(near.family)
         };
         let family = family_along(first)
@@ -178,7 +176,7 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
     /// Distance to the nearest line alongside, if within `reach`.
     fn room(&self, at: Point, along: Point, reach: f64) -> Option<f64> {
         self.chords
-            .nearest(at, along, reach, None, false)
+            .nearest(at, along, reach)
             .map(|near| near.distance)
     }
 

@@ -1,6 +1,6 @@
 //! What keeps a line that is being traced apart from the others and itself.
 
-use super::chords::{Chord, Chords, Own};
+use super::chords::{Chord, Chords, Own, Vicinity};
 use super::spacing::Spacing;
 use crate::streamline::Streamline;
 use crate::trace::Stop;
@@ -11,6 +11,12 @@ const CHORD: f64 = 0.25;
 /// How far beyond d_test a look reaches, in separations: nothing can come
 /// nearer until the line has gone as far.
 const LOOK: f64 = 0.25;
+/// Chords are gathered for looks from this far around, in separations; or from
+/// d_test, if that is less: along so straight a stretch of the line its own new
+/// chords are nearer than [`OWN_GAP`], and need not be among them.
+const STRETCH: f64 = 0.5;
+/// They reach further by this factor, for a separation that grows on the way.
+const SPARE: f64 = 1.05;
 /// Cosine of 10 degrees: a line that has turned by more looks again.
 const TURNED: f64 = 0.985;
 /// Own chords nearer along the line than this many times d_test are
@@ -38,6 +44,9 @@ pub(super) struct Watch<'a> {
     free: f64,
     moved: f64,
     looked: Point,
+    /// The chords near the last looks, for looks that reach as far as `reach`.
+    vicinity: Vicinity,
+    reach: f64,
 }
 
 impl<'a> Watch<'a> {
@@ -63,6 +72,8 @@ impl<'a> Watch<'a> {
             free: 0.0,
             moved: 0.0,
             looked: Point::zero(),
+            vicinity: Vicinity::default(),
+            reach: 0.0,
         }
     }
 
@@ -72,7 +83,7 @@ impl<'a> Watch<'a> {
             self.forward = Some((self.from, self.from_arc));
             self.sign = sign;
             (self.arc, self.from, self.from_arc) = (0.0, a, 0.0);
-            (self.free, self.moved) = (0.0, 0.0);
+            (self.free, self.moved, self.reach) = (0.0, 0.0, 0.0);
             self.from_way = Point::zero();
         }
         let length = norm(b - a);
@@ -94,20 +105,26 @@ impl<'a> Watch<'a> {
     }
 
     fn look(&mut self, b: Point, way: Point, arc: f64, test: f64, wide: f64) -> Option<Stop> {
-        let own = Some(Own {
+        let own = Own {
             line: self.line,
             arc: self.sign * arc,
             gap: OWN_GAP * test,
-        });
+        };
         let reach = test + LOOK * wide;
         (self.free, self.moved, self.looked) = (reach, 0.0, way);
-        let near = self.chords.nearest(b, way, reach, own, true)?;
+        if reach > self.reach || !self.vicinity.serves(b, way) {
+            self.reach = SPARE * reach;
+            let radius = test.min(STRETCH * wide);
+            self.chords
+                .gather(b, way, self.reach, radius, &mut self.vicinity);
+        }
+        let near = self.vicinity.nearest(b, way, reach, own, true)?;
         self.free = near.distance;
         if near.distance >= test {
             return None;
         }
         // It may be one that turns too much to count, and hide one that does.
-        let near = self.chords.nearest(b, way, test, own, false)?;
+        let near = self.vicinity.nearest(b, way, test, own, false)?;
         Some(if near.own {
             Stop::SelfApproach
         } else {
