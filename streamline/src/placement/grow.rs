@@ -1,6 +1,6 @@
 //! Placing line after line: beside earlier ones, or where most room is left.
 
-use super::chords::Chords;
+use super::chords::{Chords, Nearest};
 use super::options::{PlacementOptions, Strategy};
 use super::spacing::Spacing;
 use super::watch::Watch;
@@ -32,6 +32,15 @@ pub(super) struct Placer<'a, F: ?Sized> {
     chords: Chords,
     lines: Vec<Streamline>,
     cursor: Cursor,
+}
+
+/// An orientation at a seed.
+#[derive(Clone, Copy)]
+struct Way {
+    family: u8,
+    heading: Point,
+    /// A line runs along it within the separation.
+    taken: bool,
 }
 
 /// On which side of a line new ones are tried.
@@ -85,8 +94,10 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
         let (mut beside, mut across) = (0, 0);
         // From the middle outwards; then whatever was not reached, in order.
         for index in middle(seeds).into_iter().chain(0..seeds.len()) {
-            for (family, heading) in self.families(&seeds[index]) {
-                self.start(seeds[index].at, heading, family, index, 1.0);
+            for way in self.ways(&seeds[index]) {
+                if !way.taken {
+                    self.start(seeds[index].at, way.heading, way.family, index, 1.0);
+                }
             }
             // Across only when nothing is left to do beside: neighbours are
             // exactly spaced, and rows of them begun far apart do not fit.
@@ -119,7 +130,14 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
         }
         while let Some((stored, Reverse(slot))) = heap.pop() {
             let (index, at) = (slot / 2, seeds[slot / 2].at);
-            let (family, heading) = self.families(&seeds[index])[slot % 2];
+            let Way {
+                family,
+                heading,
+                taken,
+            } = self.ways(&seeds[index])[slot % 2];
+            if taken {
+                continue;
+            }
             let Some(along) = unit(heading) else { continue };
             let separation = self.spacing.at(at, family);
             let room = self
@@ -133,19 +151,38 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
         }
     }
 
-    /// The two orientations at a seed with their families: as the nearest line
+    /// The two orientations at a seed, with their families as the nearest line
     /// has them, for around singularities they change places.
-    fn families(&self, seed: &Seed) -> [(u8, Point); 2] {
+    fn ways(&self, seed: &Seed) -> [Way; 2] {
         let [first, second] = seed.directions;
         let reach = self.spacing.widest(seed.at);
-        let family_along = |way: Point| {
-            let near = self.chords.nearest(seed.at, unit(way)?, reach)?;
-            Some(near.family)
+        let near = |way: Point| self.chords.nearest(seed.at, unit(way)?, reach);
+        let one = near(first);
+        // Without a use for the second family one look is enough.
+        let known = one.as_ref().map(|near| near.family);
+        let two = if known.is_none_or(|family| self.options.families[usize::from(1 - family)]) {
+            near(second)
+        } else {
+            None
         };
-        let family = family_along(first)
-            .or_else(|| Some(1 - family_along(second)?))
+        let family = known
+            .or_else(|| Some(1 - two.as_ref()?.family))
             .unwrap_or(0);
-        [(family, first), (1 - family, second)]
+        let taken = |near: Option<Nearest>, family| {
+            near.is_some_and(|near| near.distance < self.spacing.at(seed.at, family))
+        };
+        [
+            Way {
+                family,
+                heading: first,
+                taken: taken(one, family),
+            },
+            Way {
+                family: 1 - family,
+                heading: second,
+                taken: taken(two, 1 - family),
+            },
+        ]
     }
 
     /// Traces a line unless another one runs alongside within `clearance`
