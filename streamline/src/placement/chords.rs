@@ -287,6 +287,11 @@ impl Chords {
     /// The nearest chord within `reach` of `p` that runs within 45 degrees of
     /// the unit vector `along`.
     pub(super) fn nearest(&self, p: Point, along: Point, reach: f64) -> Option<Nearest> {
+        self.near(p, along, reach, 0.0)
+    }
+
+    /// [`nearest`](Self::nearest), or any that is nearer than `enough`.
+    pub(super) fn near(&self, p: Point, along: Point, reach: f64, enough: f64) -> Option<Nearest> {
         let mut search = Search::new(p, along, reach, None, false);
         let wide = reach + self.longest_half;
         let (bottom, top) = self.span(p.y, wide, self.low.y, self.rows);
@@ -294,6 +299,9 @@ impl Chords {
         // Upwards from the middle, then downwards: what was found narrows the
         // rest.
         for y in (middle..=top).chain((bottom..middle).rev()) {
+            if search.limit < enough * enough {
+                break;
+            }
             let wide = search.limit.sqrt() + self.longest_half;
             self.look_along(y, p, wide, |chord| search.look(chord));
         }
@@ -302,14 +310,14 @@ impl Chords {
 
     /// Gathers the chords that looks need which reach as far as `reach`, from
     /// anywhere within `radius` of `p`, by a line that has not turned by more
-    /// than 15 degrees from `along`. Chords that are added later are not among
-    /// them.
+    /// than 15 degrees from `along` since. Chords that are added later are not
+    /// among them, nor own ones that stay neighbours all the way.
     pub(super) fn gather(
         &self,
         p: Point,
         along: Point,
-        reach: f64,
-        radius: f64,
+        own: Own,
+        (reach, radius): (f64, f64),
         vicinity: &mut Vicinity,
     ) {
         (vicinity.centre, vicinity.along, vicinity.radius) = (p, along, radius);
@@ -318,6 +326,11 @@ impl Chords {
         let (bottom, top) = self.span(p.y, wide, self.low.y, self.rows);
         for y in bottom..=top {
             self.look_along(y, p, wide, |chord| {
+                // So straight a way out of the circle is at most this long.
+                let gone = (own.arc - chord.arc).abs() + radius / TURN;
+                if chord.line == own.line && gone < own.gap + chord.half {
+                    return;
+                }
                 let off = chord.middle - p;
                 let near = reach + radius + chord.half;
                 if dot(off, off) <= near * near && dot(chord.along, along).abs() >= LATER {
@@ -417,7 +430,7 @@ mod tests {
         for i in 0..100 {
             let p = point((i * 37 % 300) as f64, (i * 91 % 300) as f64 - 100.0);
             let way = |u: f64| point(u.cos(), u.sin());
-            chords.gather(p, way(i as f64), 15.0, 8.0, &mut vicinity);
+            chords.gather(p, way(i as f64), own, (15.0, 8.0), &mut vicinity);
             for j in 0..20 {
                 let q = p + way(j as f64) * (0.4 * j as f64);
                 let along = way(i as f64 + 0.025 * (j - 10) as f64);
@@ -465,7 +478,7 @@ mod tests {
             let mut vicinity = Vicinity::default();
             let east = point(1.0, 0.0);
             assert!(!vicinity.serves(p, east));
-            chords.gather(p, east, 10.0, 1.0, &mut vicinity);
+            chords.gather(p, east, own, (10.0, 1.0), &mut vicinity);
             assert!(vicinity.serves(p, east));
             vicinity.nearest(p, east, 10.0, own, false)
         };

@@ -13,7 +13,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// Width of a cell of the grid, in separations.
-const CELL: f64 = 0.75;
+const CELL: f64 = 1.0;
 /// A line starts beside another one where no third is nearer than this, in
 /// separations (or than d_test, if that is more): less than 1, so that a gap
 /// that widens is filled before it is two separations wide.
@@ -155,8 +155,12 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
     /// has them, for around singularities they change places.
     fn ways(&self, seed: &Seed) -> [Way; 2] {
         let [first, second] = seed.directions;
-        let reach = self.spacing.widest(seed.at);
-        let near = |way: Point| self.chords.nearest(seed.at, unit(way)?, reach);
+        let separation = [0, 1].map(|family| self.spacing.at(seed.at, family));
+        let (reach, enough) = (
+            separation[0].max(separation[1]),
+            separation[0].min(separation[1]),
+        );
+        let near = |way: Point| self.chords.near(seed.at, unit(way)?, reach, enough);
         let one = near(first);
         // Without a use for the second family one look is enough.
         let known = one.as_ref().map(|near| near.family);
@@ -168,8 +172,8 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
         let family = known
             .or_else(|| Some(1 - two.as_ref()?.family))
             .unwrap_or(0);
-        let taken = |near: Option<Nearest>, family| {
-            near.is_some_and(|near| near.distance < self.spacing.at(seed.at, family))
+        let taken = |near: Option<Nearest>, family: u8| {
+            near.is_some_and(|near| near.distance < separation[usize::from(family)])
         };
         [
             Way {

@@ -7,7 +7,7 @@ use crate::trace::Stop;
 use crate::vector::{cross, dot, norm, Point};
 
 /// Length of a chord in separations, at most.
-const CHORD: f64 = 0.25;
+const CHORD: f64 = 0.4;
 /// How far beyond d_test a look reaches, in separations: nothing can come
 /// nearer until the line has gone as far.
 const LOOK: f64 = 0.25;
@@ -15,7 +15,7 @@ const LOOK: f64 = 0.25;
 /// d_test, if that is less: along so straight a stretch of the line its own new
 /// chords are nearer than [`OWN_GAP`], and need not be among them.
 const STRETCH: f64 = 0.5;
-/// They reach further by this factor, for a separation that grows on the way.
+/// They serve while the separation changes by less than this factor on the way.
 const SPARE: f64 = 1.05;
 /// Cosine of 10 degrees: a line that has turned by more looks again.
 const TURNED: f64 = 0.985;
@@ -112,11 +112,16 @@ impl<'a> Watch<'a> {
         };
         let reach = test + LOOK * wide;
         (self.free, self.moved, self.looked) = (reach, 0.0, way);
-        if reach > self.reach || !self.vicinity.serves(b, way) {
+        let same = reach <= self.reach && reach * (SPARE * SPARE) >= self.reach;
+        if !same || !self.vicinity.serves(b, way) {
             self.reach = SPARE * reach;
             let radius = test.min(STRETCH * wide);
+            let least = Own {
+                gap: own.gap / SPARE,
+                ..own
+            };
             self.chords
-                .gather(b, way, self.reach, radius, &mut self.vicinity);
+                .gather(b, way, least, (self.reach, radius), &mut self.vicinity);
         }
         let near = self.vicinity.nearest(b, way, reach, own, true)?;
         self.free = near.distance;
