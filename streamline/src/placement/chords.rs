@@ -2,6 +2,7 @@
 //! that runs alongside?
 
 use crate::vector::{cross, dot, norm, point, Point};
+use std::ops::Range;
 
 /// Cosine of 45 degrees: below it two lines cross rather than run alongside.
 const ALONGSIDE: f64 = std::f64::consts::FRAC_1_SQRT_2;
@@ -287,12 +288,19 @@ impl Chords {
     /// The nearest chord within `reach` of `p` that runs within 45 degrees of
     /// the unit vector `along`.
     pub(super) fn nearest(&self, p: Point, along: Point, reach: f64) -> Option<Nearest> {
-        self.near(p, along, reach, 0.0)
+        self.near(p, along, (reach, 0.0), None)
     }
 
-    /// [`nearest`](Self::nearest), or any that is nearer than `enough`.
-    pub(super) fn near(&self, p: Point, along: Point, reach: f64, enough: f64) -> Option<Nearest> {
-        let mut search = Search::new(p, along, reach, None, false);
+    /// [`nearest`](Self::nearest), or any that is nearer than `enough`. Of an
+    /// own chord only what `p` is abreast of counts.
+    pub(super) fn near(
+        &self,
+        p: Point,
+        along: Point,
+        (reach, enough): (f64, f64),
+        own: Option<Own>,
+    ) -> Option<Nearest> {
+        let mut search = Search::new(p, along, reach, own, false);
         let wide = reach + self.longest_half;
         let (bottom, top) = self.span(p.y, wide, self.low.y, self.rows);
         let middle = self.span(p.y, 0.0, self.low.y, self.rows).0;
@@ -306,6 +314,39 @@ impl Chords {
             self.look_along(y, p, wide, |chord| search.look(chord));
         }
         search.nearest()
+    }
+
+    /// Distances to the nearest chords within `reach` of `p` that run within 45
+    /// degrees of the unit vector `along`, to its left and to its right. Of an
+    /// own chord only what `p` is abreast of counts.
+    pub(super) fn beside(&self, p: Point, along: Point, reach: f64, own: Own) -> [Option<f64>; 2] {
+        let mut searches = [0, 1].map(|_| Search::new(p, along, reach, Some(own), false));
+        let wide = reach + self.longest_half;
+        let (bottom, top) = self.span(p.y, wide, self.low.y, self.rows);
+        for y in bottom..=top {
+            self.look_along(y, p, wide, |chord| {
+                let right = cross(along, chord.middle - p) < 0.0;
+                searches[usize::from(right)].look(chord);
+            });
+        }
+        searches.map(|search| Some(search.nearest()?.distance))
+    }
+
+    /// Takes chords out of all answers, in place: a chord without a direction
+    /// runs alongside nothing.
+    pub(super) fn hide(&mut self, range: Range<usize>) -> Vec<Chord> {
+        let hidden = self.chords[range.clone()].to_vec();
+        for chord in &mut self.chords[range] {
+            chord.along = Point::zero();
+        }
+        hidden
+    }
+
+    /// Undoes [`hide`](Self::hide).
+    pub(super) fn show(&mut self, from: usize, hidden: &[Chord]) {
+        for (chord, hidden) in self.chords[from..].iter_mut().zip(hidden) {
+            chord.along = hidden.along;
+        }
     }
 
     /// Gathers the chords that looks need which reach as far as `reach`, from

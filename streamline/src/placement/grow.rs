@@ -11,6 +11,7 @@ use crate::trace::{trace_watched, TraceOptions};
 use crate::vector::{distance, left, point, unit, Point};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
+use std::ops::Range;
 
 /// Width of a cell of the grid, in separations.
 const CELL: f64 = 1.0;
@@ -25,13 +26,19 @@ const ADVANCE: f64 = 0.125;
 const WIDE: f64 = 4.0;
 
 pub(super) struct Placer<'a, F: ?Sized> {
-    field: &'a F,
-    options: &'a PlacementOptions,
-    spacing: &'a Spacing<'a>,
+    pub(super) field: &'a F,
+    pub(super) options: &'a PlacementOptions,
+    pub(super) spacing: &'a Spacing<'a>,
     trace: TraceOptions,
-    chords: Chords,
-    lines: Vec<Streamline>,
-    cursor: Cursor,
+    pub(super) chords: Chords,
+    /// Lines that were given up have no points.
+    pub(super) lines: Vec<Streamline>,
+    /// Where the chords of each line are.
+    pub(super) laid: Vec<Range<usize>>,
+    pub(super) cursor: Cursor,
+    /// The first lines beside which, and across which, nothing was tried yet.
+    beside: usize,
+    across: usize,
 }
 
 /// An orientation at a seed.
@@ -78,40 +85,64 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
             },
             chords: Chords::new(low, high, CELL * spacing.typical()),
             lines: Vec::new(),
+            laid: Vec::new(),
             cursor: Cursor::default(),
+            beside: 0,
+            across: 0,
         }
     }
 
     pub(super) fn run(mut self, seeds: &[Seed]) -> Vec<Streamline> {
         match self.options.strategy {
-            Strategy::Neighbour => self.neighbours(seeds),
+            Strategy::Neighbour => {
+                // From the middle outwards; then whatever was not reached.
+                if let Some(index) = middle(seeds) {
+                    self.start_at(seeds, index);
+                }
+                self.fill(seeds);
+            }
             Strategy::Farthest => self.farthest(seeds),
         }
+        if let Some(widest) = self.options.widest {
+            self.grow();
+            self.even_out(widest);
+            self.fill(seeds);
+        }
+        self.lines.retain(|line| !line.points.is_empty());
         self.lines
     }
 
-    fn neighbours(&mut self, seeds: &[Seed]) {
-        let (mut beside, mut across) = (0, 0);
-        // From the middle outwards; then whatever was not reached, in order.
-        for index in middle(seeds).into_iter().chain(0..seeds.len()) {
-            for way in self.ways(&seeds[index]) {
-                if !way.taken {
-                    self.start(seeds[index].at, way.heading, way.family, index, 1.0);
-                }
+    /// Lines beside and across all earlier ones, and at the seeds, in order,
+    /// that none of these serves.
+    fn fill(&mut self, seeds: &[Seed]) {
+        self.grow();
+        for index in 0..seeds.len() {
+            self.start_at(seeds, index);
+            self.grow();
+        }
+    }
+
+    fn start_at(&mut self, seeds: &[Seed], index: usize) {
+        for way in self.ways(&seeds[index]) {
+            if !way.taken {
+                self.start(seeds[index].at, way.heading, way.family, index, 1.0);
             }
-            // Across only when nothing is left to do beside: neighbours are
-            // exactly spaced, and rows of them begun far apart do not fit.
-            while across < self.lines.len() {
-                if beside < self.lines.len() {
-                    let line = self.lines[beside].clone();
-                    self.sweep(&line, Side::Beside(1.0));
-                    self.sweep(&line, Side::Beside(-1.0));
-                    beside += 1;
-                } else {
-                    let line = self.lines[across].clone();
-                    self.sweep(&line, Side::Across);
-                    across += 1;
-                }
+        }
+    }
+
+    pub(super) fn grow(&mut self) {
+        // Across only when nothing is left to do beside: neighbours are
+        // exactly spaced, and rows of them begun far apart do not fit.
+        while self.across < self.lines.len() {
+            if self.beside < self.lines.len() {
+                let line = self.lines[self.beside].clone();
+                self.sweep(&line, Side::Beside(1.0));
+                self.sweep(&line, Side::Beside(-1.0));
+                self.beside += 1;
+            } else {
+                let line = self.lines[self.across].clone();
+                self.sweep(&line, Side::Across);
+                self.across += 1;
             }
         }
     }
@@ -156,11 +187,11 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
     fn ways(&self, seed: &Seed) -> [Way; 2] {
         let [first, second] = seed.directions;
         let separation = [0, 1].map(|family| self.spacing.at(seed.at, family));
-        let (reach, enough) = (
+        let reach = (
             separation[0].max(separation[1]),
             separation[0].min(separation[1]),
         );
-        let near = |way: Point| self.chords.near(seed.at, unit(way)?, reach, enough);
+        let near = |way: Point| self.chords.near(seed.at, unit(way)?, reach, None);
         let one = near(first);
         // Without a use for the second family one look is enough.
         let known = one.as_ref().map(|near| near.family);
@@ -191,7 +222,7 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
 
     /// Traces a line unless another one runs alongside within `clearance`
     /// separations; true if it was placed.
-    fn start(
+    pub(super) fn start(
         &mut self,
         at: Point,
         heading: Point,
@@ -236,6 +267,7 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
             Some(mut line) => {
                 (line.family, line.seed_index) = (family, seed);
                 self.lines.push(line);
+                self.laid.push(mark..self.chords.len());
                 true
             }
             None => {

@@ -1,6 +1,7 @@
 //! Evenly spaced lines of both families.
 
 mod chords;
+mod even;
 mod grow;
 mod junction;
 mod lattice;

@@ -48,6 +48,18 @@ pub struct PlacementOptions {
     ///
     /// Default value: 0.87.
     pub test: f64,
+    /// Where a line has no neighbour alongside within this many separations, on
+    /// neither side, it is cut, and two lines take its place; beside the
+    /// boundary, one that is nearer to its neighbour. At least 1.5 times
+    /// [`test`](Self::test), or two would not fit.
+    ///
+    /// Spacing gets more even, at the price of more and shorter lines and of
+    /// about two thirds more time. With 1.29 and a `test` of 0.86 hardly a point
+    /// is farther than 1.3 separations from the nearest other line; without it
+    /// one in ten is, where a field spreads.
+    ///
+    /// Default value: none, which leaves lines whole.
+    pub widest: Option<f64>,
     /// Shorter lines are dropped, as a share of the separation.
     ///
     /// Default value: 0.5.
@@ -77,6 +89,7 @@ impl Default for PlacementOptions {
         Self {
             separation: [75.0, 150.0],
             test: 0.87,
+            widest: None,
             min_length: 0.5,
             families: [true, true],
             strategy: Strategy::Neighbour,
@@ -107,6 +120,15 @@ impl PlacementOptions {
                 value: self.test,
                 expected: "from 0.1 to 1",
             });
+        }
+        if let Some(value) = self.widest {
+            if !(value >= 1.5 * self.test && value.is_finite()) {
+                return Err(TraceError::BadOption {
+                    name: "widest",
+                    value,
+                    expected: "finite and at least 1.5 times `test`",
+                });
+            }
         }
         if !(self.min_length >= 0.0 && self.min_length.is_finite()) {
             return Err(TraceError::BadOption {
@@ -148,6 +170,20 @@ mod tests {
                 },
             ),
             ("step", PlacementOptions { trace, ..good }),
+            (
+                "widest",
+                PlacementOptions {
+                    widest: Some(1.3),
+                    ..good
+                },
+            ),
+            (
+                "widest",
+                PlacementOptions {
+                    widest: Some(f64::NAN),
+                    ..good
+                },
+            ),
         ];
         for (expected, options) in bad {
             match options.validate() {

@@ -79,13 +79,7 @@ impl<'a> Watch<'a> {
 
     /// The line goes on from `a` to `b`: may it?
     pub(super) fn step(&mut self, sign: f64, a: Point, b: Point) -> Option<Stop> {
-        if sign != self.sign {
-            self.forward = Some((self.from, self.from_arc));
-            self.sign = sign;
-            (self.arc, self.from, self.from_arc) = (0.0, a, 0.0);
-            (self.free, self.moved, self.reach) = (0.0, 0.0, 0.0);
-            self.from_way = Point::zero();
-        }
+        self.turn_to(sign, a);
         let length = norm(b - a);
         if length == 0.0 {
             return None;
@@ -102,6 +96,17 @@ impl<'a> Watch<'a> {
         self.lay(a, length, way, separation);
         self.arc += length;
         None
+    }
+
+    /// Where the backward half begins, at the seed.
+    fn turn_to(&mut self, sign: f64, seed: Point) {
+        if sign != self.sign {
+            self.forward = Some((self.from, self.from_arc));
+            self.sign = sign;
+            (self.arc, self.from, self.from_arc) = (0.0, seed, 0.0);
+            (self.free, self.moved, self.reach) = (0.0, 0.0, 0.0);
+            self.from_way = Point::zero();
+        }
     }
 
     fn look(&mut self, b: Point, way: Point, arc: f64, test: f64, wide: f64) -> Option<Stop> {
@@ -157,6 +162,31 @@ impl<'a> Watch<'a> {
         if let Some(chord) = Chord::new(a, b, self.line, self.family, arc) {
             self.chords.push(chord);
         }
+    }
+
+    /// Lays the chords of a whole line, of which no step was watched.
+    pub(super) fn relay(mut self, line: &Streamline) {
+        let seed = line.points.iter().position(|&p| p == line.seed);
+        let (behind, ahead) = line.points.split_at(seed.unwrap_or(0));
+        for (sign, half) in [(1.0, ahead), (-1.0, behind)] {
+            let mut last = line.seed;
+            let mut lay = |to: Point| {
+                self.turn_to(sign, last);
+                let length = norm(to - last);
+                if length > 0.0 {
+                    let separation = self.spacing.at(to, self.family);
+                    self.lay(last, length, (to - last) / length, separation);
+                    self.arc += length;
+                }
+                last = to;
+            };
+            if sign > 0.0 {
+                half.iter().for_each(|&p| lay(p));
+            } else {
+                half.iter().rev().for_each(|&p| lay(p));
+            }
+        }
+        self.finish(line);
     }
 
     /// Lays the last chords, out to the ends of the finished line.
