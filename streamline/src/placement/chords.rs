@@ -178,6 +178,8 @@ impl Vicinity {
 #[derive(Debug)]
 pub(super) struct Chords {
     cell: f64,
+    /// 1 / `cell`.
+    scale: f64,
     low: Point,
     columns: usize,
     rows: usize,
@@ -193,6 +195,7 @@ impl Chords {
     pub(super) fn new(low: Point, high: Point, cell: f64) -> Self {
         let mut chords = Self {
             cell,
+            scale: 1.0 / cell,
             low,
             columns: 0,
             rows: 0,
@@ -211,6 +214,7 @@ impl Chords {
             self.cell *= 2.0;
         }
         self.low = low;
+        self.scale = 1.0 / self.cell;
         self.columns = (width / self.cell) as usize + 1;
         self.rows = (height / self.cell) as usize + 1;
         self.last = vec![END; self.columns * self.rows];
@@ -226,8 +230,8 @@ impl Chords {
     }
 
     fn index(&self, p: Point) -> usize {
-        let x = ((p.x - self.low.x) / self.cell) as usize;
-        let y = ((p.y - self.low.y) / self.cell) as usize;
+        let x = ((p.x - self.low.x) * self.scale) as usize;
+        let y = ((p.y - self.low.y) * self.scale) as usize;
         y.min(self.rows - 1) * self.columns + x.min(self.columns - 1)
     }
 
@@ -301,11 +305,12 @@ impl Chords {
         own: Option<Own>,
     ) -> Option<Nearest> {
         let mut search = Search::new(p, along, reach, own, false);
-        let wide = reach + self.longest_half;
+        // What is found at once narrows the rest.
+        let home = self.index(p);
+        self.look_into(home..home + 1, |chord| search.look(chord));
+        let wide = search.limit.sqrt() + self.longest_half;
         let (bottom, top) = self.span(p.y, wide, self.low.y, self.rows);
-        let middle = self.span(p.y, 0.0, self.low.y, self.rows).0;
-        // Upwards from the middle, then downwards: what was found narrows the
-        // rest.
+        let middle = home / self.columns;
         for y in (middle..=top).chain((bottom..middle).rev()) {
             if search.limit < enough * enough {
                 break;
@@ -397,7 +402,13 @@ impl Chords {
         }
         let half = (wide * wide - off * off).sqrt() * (1.0 + 1e-9);
         let (first, last) = self.span(p.x, half, self.low.x, self.columns);
-        for &head in &self.last[y * self.columns + first..=y * self.columns + last] {
+        let row = y * self.columns;
+        self.look_into(row + first..row + last + 1, &mut look);
+    }
+
+    #[inline]
+    fn look_into(&self, cells: Range<usize>, mut look: impl FnMut(&Chord)) {
+        for &head in &self.last[cells] {
             let mut i = head;
             while let Some(chord) = self.chords.get(i as usize) {
                 look(chord);
@@ -408,8 +419,8 @@ impl Chords {
 
     /// The first and last of a row of cells within `wide` of `from`.
     fn span(&self, from: f64, wide: f64, low: f64, count: usize) -> (usize, usize) {
-        let first = ((from - wide - low) / self.cell).max(0.0) as usize;
-        let last = ((from + wide - low) / self.cell).max(0.0) as usize;
+        let first = ((from - wide - low) * self.scale).max(0.0) as usize;
+        let last = ((from + wide - low) * self.scale).max(0.0) as usize;
         (first.min(count - 1), last.min(count - 1))
     }
 }

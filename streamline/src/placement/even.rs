@@ -10,9 +10,9 @@ use super::chords::Own;
 use super::grow::Placer;
 use super::watch::Watch;
 use crate::field::DirectionField;
-use crate::streamline::{Sample, Streamline};
+use crate::streamline::Streamline;
 use crate::trace::Stop;
-use crate::vector::{distance, left, Point};
+use crate::vector::{distance, left, unit, Point};
 use std::ops::Range;
 
 /// Distance between the places of a line that are looked at, in separations.
@@ -22,7 +22,7 @@ const PIECE: f64 = 0.25;
 const LEAST: f64 = 1.5;
 /// A look that finds a line as near as this, in separations, need not find the
 /// nearest.
-const ENOUGH: f64 = 1.0;
+const ENOUGH: f64 = 1.1;
 /// Chords of its own nearer along a line than this many separations are no
 /// neighbours of it.
 const OWN_GAP: f64 = 3.0;
@@ -31,31 +31,43 @@ const ROUNDS: usize = 4;
 /// A neighbour farther than this many times the widest gap is none.
 const REACH: f64 = 1.6;
 
+/// A point of a line, and its arc length from the start.
+#[derive(Clone, Copy)]
+struct Place {
+    point: usize,
+    arc: f64,
+}
+
 /// A stretch of a line without near neighbours.
 struct Lonely {
-    /// Arc lengths from the start of the line.
-    from: f64,
-    to: f64,
+    /// From the first point of it to the first after it.
+    points: Range<usize>,
+    length: f64,
     /// Where the lines that take its place start.
     seeds: [Option<Point>; 2],
     heading: Point,
 }
 
 impl<F: DirectionField + ?Sized> Placer<'_, F> {
-    /// Rounds over all lines, then over those that were added, and so on.
-    pub(super) fn even_out(&mut self, widest: f64) {
-        let mut from = 0;
+    /// Cuts the lines from `first` on, then those that were added, and so on;
+    /// true if any was cut.
+    pub(super) fn even_out(&mut self, widest: f64, first: usize) -> bool {
+        let (mut from, mut any) = (first, false);
         for _ in 0..ROUNDS {
             let to = self.lines.len();
             for index in from..to {
                 for lonely in self.lonely(index, widest) {
-                    self.replace(index, &lonely);
+                    // What was left before the last cut may have been too short.
+                    if lonely.points.end < self.lines[index].points.len() {
+                        any |= self.replace(index, &lonely);
+                    }
                 }
             }
             self.grow();
             // No line loses a neighbour but to nearer ones: the rest stay good.
             from = to;
         }
+        any
     }
 
     /// The stretches of a line without a neighbour nearer than `widest`
@@ -66,72 +78,82 @@ impl<F: DirectionField + ?Sized> Placer<'_, F> {
         if line.points.len() < 2 || line.is_closed() {
             return Vec::new();
         }
-        let typical = self.spacing.at(line.seed, line.family);
-        let samples = line.samples(PIECE * typical);
-        let seed = arc_of_seed(line);
-        // Chords of its own that are near along it are no neighbours.
-        let own = |i: usize| Own {
+        let points = &line.points;
+        let own = Own {
             line: index as u32,
-            arc: (i as f64 + 0.5) * samples[i].length - seed,
-            gap: OWN_GAP * typical,
+            arc: -arc_of_seed(line),
+            gap: OWN_GAP * self.spacing.at(line.seed, line.family),
         };
         let mut found = Vec::new();
-        let (mut i, mut from) = (0, None);
-        while let Some(sample) = samples.get(i) {
-            let separation = self.spacing.at(sample.at, line.family);
-            let wide = widest * separation;
-            let reach = (wide, ENOUGH * separation);
-            match self
-                .chords
-                .near(sample.at, sample.tangent, reach, Some(own(i)))
-            {
-                None => {
-                    from.get_or_insert(i);
-                    i += 1;
-                }
-                Some(near) => {
-                    if let Some(from) = from.take() {
-                        found.extend(self.stretch(line, &samples, from..i, &own, widest));
-                    }
-                    // As far on as nothing can have changed.
-                    i += ((wide - near.distance) / sample.length) as usize + 1;
-                }
+        let mut from: Option<Place> = None;
+        let (mut arc, mut next) = (0.0, 0.0);
+        for (point, &at) in points.iter().enumerate() {
+            if point > 0 {
+                arc += distance(points[point - 1], at);
             }
-        }
-        if let Some(from) = from {
-            found.extend(self.stretch(line, &samples, from..samples.len(), &own, widest));
+            let last = point + 1 == points.len();
+            if arc < next && !last {
+                continue;
+            }
+            let place = Place { point, arc };
+            let separation = self.spacing.at(at, line.family);
+            let (wide, piece) = (widest * separation, PIECE * separation);
+            let own = Own {
+                arc: own.arc + arc,
+                ..own
+            };
+            let near = heading(points, point).and_then(|along| {
+                let reach = (wide, ENOUGH * separation);
+                self.chords.near(at, along, reach, Some(own))
+            });
+            match near {
+                None => {
+                    from.get_or_insert(place);
+                    next = arc + piece;
+                }
+                // As far on as nothing can have changed.
+                Some(near) => next = arc + piece.max(wide - near.distance),
+            }
+            if near.is_some() || last {
+                let stretch = from.take().map(|from| (from, place));
+                found.extend(stretch.and_then(|stretch| self.stretch(line, stretch, own, widest)));
+            }
         }
         found.reverse();
         found
     }
 
-    /// A stretch of lonely samples, if it is long enough and there is room.
+    /// What to do about a lonely stretch, if it is long enough and there is
+    /// room; `own` is for a look from its end.
     fn stretch(
         &self,
         line: &Streamline,
-        samples: &[Sample],
-        range: Range<usize>,
-        own: &impl Fn(usize) -> Own,
+        (from, to): (Place, Place),
+        own: Own,
         widest: f64,
     ) -> Option<Lonely> {
-        let middle = (range.start + range.end) / 2;
-        let sample = samples.get(middle)?;
-        let separation = self.spacing.at(sample.at, line.family);
-        if (range.len() as f64) * sample.length < LEAST * separation {
+        let middle = (from.point + to.point) / 2;
+        let at = line.points[middle];
+        let separation = self.spacing.at(at, line.family);
+        let length = to.arc - from.arc;
+        if length < LEAST * separation {
             return None;
         }
+        let own = Own {
+            arc: own.arc - 0.5 * length,
+            ..own
+        };
+        let along = heading(&line.points, middle)?;
         let reach = REACH * widest * separation;
-        let gaps = self
-            .chords
-            .beside(sample.at, sample.tangent, reach, own(middle));
+        let gaps = self.chords.beside(at, along, reach, own);
         let places = self.places(gaps.map(|gap| Some(gap? / separation)), widest);
-        let aside = left(sample.tangent) * separation;
-        let seeds = places.map(|off| Some(sample.at + aside * off?));
-        (seeds != [None, None]).then(|| Lonely {
-            from: range.start as f64 * sample.length,
-            to: range.end as f64 * sample.length,
+        let aside = left(along) * separation;
+        let seeds = places.map(|off| Some(at + aside * off?));
+        (seeds != [None, None]).then_some(Lonely {
+            points: from.point..to.point,
+            length,
             seeds,
-            heading: sample.tangent,
+            heading: along,
         })
     }
 
@@ -161,7 +183,7 @@ impl<F: DirectionField + ?Sized> Placer<'_, F> {
         let (chords, lines) = (self.chords.len(), self.lines.len());
         let laid = self.laid[index].clone();
         let hidden = self.chords.hide(laid.clone());
-        let [before, after] = without(&old, lonely.from..lonely.to);
+        let [before, after] = without(&old, &lonely.points);
         let least = self.options.min_length * self.spacing.at(old.seed, old.family);
         let fit = |part: Option<Streamline>| part.filter(|part| part.length() >= least);
         let (before, after) = (fit(before), fit(after));
@@ -186,7 +208,7 @@ impl<F: DirectionField + ?Sized> Placer<'_, F> {
             );
         }
         let filled: f64 = self.lines[first..].iter().map(Streamline::length).sum();
-        if filled >= lonely.to - lonely.from {
+        if filled >= lonely.length {
             return true;
         }
         self.chords.truncate(chords);
@@ -220,23 +242,15 @@ fn arc_of_seed(line: &Streamline) -> f64 {
         .sum()
 }
 
-/// What is left of a line before and after a stretch, up to whole pieces.
-fn without(line: &Streamline, stretch: Range<f64>) -> [Option<Streamline>; 2] {
-    let points = &line.points;
-    let (mut arc, mut last, mut first) = (0.0, 0, points.len());
-    for i in 0..points.len() {
-        if i > 0 {
-            arc += distance(points[i - 1], points[i]);
-        }
-        if arc <= stretch.start {
-            last = i;
-        }
-        if arc >= stretch.end && first == points.len() {
-            first = i;
-        }
-    }
+/// The direction of a line at one of its points.
+fn heading(points: &[Point], i: usize) -> Option<Point> {
+    unit(points[(i + 1).min(points.len() - 1)] - points[i.saturating_sub(1)])
+}
+
+/// What is left of a line before and after a stretch.
+fn without(line: &Streamline, stretch: &Range<usize>) -> [Option<Streamline>; 2] {
     let part = |range: Range<usize>, start: Stop, end: Stop| {
-        let points = points[range].to_vec();
+        let points = line.points[range].to_vec();
         if points.len() < 2 {
             return None;
         }
@@ -254,7 +268,7 @@ fn without(line: &Streamline, stretch: Range<f64>) -> [Option<Streamline>; 2] {
         })
     };
     [
-        part(0..last + 1, line.start, Stop::Neighbour),
-        part(first..points.len(), Stop::Neighbour, line.end),
+        part(0..stretch.start + 1, line.start, Stop::Neighbour),
+        part(stretch.end..line.points.len(), Stop::Neighbour, line.end),
     ]
 }

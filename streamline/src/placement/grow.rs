@@ -41,6 +41,9 @@ pub(super) struct Placer<'a, F: ?Sized> {
     across: usize,
 }
 
+/// Most rounds of cutting and filling.
+const ROUNDS: usize = 4;
+
 /// An orientation at a seed.
 #[derive(Clone, Copy)]
 struct Way {
@@ -93,19 +96,35 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
     }
 
     pub(super) fn run(mut self, seeds: &[Seed]) -> Vec<Streamline> {
-        match self.options.strategy {
-            Strategy::Neighbour => {
-                // From the middle outwards; then whatever was not reached.
-                if let Some(index) = middle(seeds) {
+        let mut full = match (self.options.strategy, middle(seeds)) {
+            (Strategy::Farthest, _) => {
+                self.farthest(seeds);
+                true
+            }
+            (Strategy::Neighbour, first) => {
+                // From the middle outwards.
+                if let Some(index) = first {
                     self.start_at(seeds, index);
                 }
-                self.fill(seeds);
+                false
             }
-            Strategy::Farthest => self.farthest(seeds),
-        }
+        };
+        // Cutting comes before the seeds are seen to, as far as it can.
         if let Some(widest) = self.options.widest {
-            self.grow();
-            self.even_out(widest);
+            let mut seen = 0;
+            for _ in 0..ROUNDS {
+                self.grow();
+                full &= !self.even_out(widest, seen);
+                seen = self.lines.len();
+                if !full {
+                    self.fill(seeds);
+                    full = true;
+                }
+                if seen == self.lines.len() {
+                    break;
+                }
+            }
+        } else if !full {
             self.fill(seeds);
         }
         self.lines.retain(|line| !line.points.is_empty());
