@@ -9,8 +9,6 @@ use crate::field::{Cursor, DirectionField};
 use crate::streamline::Streamline;
 use crate::trace::{trace_watched, TraceOptions};
 use crate::vector::{distance, left, point, unit, Point};
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
 use std::ops::Range;
 
 /// Width of a cell of the grid, in separations.
@@ -24,6 +22,8 @@ const CLEARANCE: f64 = 0.92;
 const ADVANCE: f64 = 0.125;
 /// Rooms wider than this many separations count as equally wide.
 const WIDE: f64 = 4.0;
+/// So many levels to a separation are told apart by who has most room.
+const LEVELS: f64 = 16.0;
 
 pub(super) struct Placer<'a, F: ?Sized> {
     pub(super) field: &'a F,
@@ -166,37 +166,37 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
         }
     }
 
+    /// At the seed with most room first, up to a level; of a level in the order
+    /// of the seeds, so that neighbours follow each other and what they look at
+    /// stays in the cache. Room only shrinks: a seed that has less than it was
+    /// noted for waits at a lower level, and one pass downwards sees to all.
     fn farthest(&mut self, seeds: &[Seed]) {
-        // Room in separations, as the bits of a positive number, which order
-        // like it; of equals the first seed.
-        let key = f64::to_bits;
-        let mut heap: BinaryHeap<(u64, Reverse<usize>)> = (0..2 * seeds.len())
-            .map(|slot| (key(WIDE), Reverse(slot)))
-            .collect();
-        // Before all others, and once more with them, which does no harm.
         if let Some(index) = middle(seeds) {
-            let first = key(2.0 * WIDE);
-            heap.extend([(first, Reverse(2 * index)), (first, Reverse(2 * index + 1))]);
+            self.start_at(seeds, index);
         }
-        while let Some((stored, Reverse(slot))) = heap.pop() {
-            let (index, at) = (slot / 2, seeds[slot / 2].at);
-            let Way {
-                family,
-                heading,
-                taken,
-            } = self.ways(&seeds[index])[slot % 2];
-            if taken {
-                continue;
-            }
-            let Some(along) = unit(heading) else { continue };
-            let separation = self.spacing.at(at, family);
-            let room = self
-                .room(at, along, WIDE * separation)
-                .map_or(WIDE, |near| near / separation);
-            if room >= 1.0 && key(room) < stored {
-                heap.push((key(room), Reverse(slot)));
-            } else if room >= 1.0 {
-                self.start(at, heading, family, index, 1.0);
+        let level = |room: f64| (room * LEVELS) as usize;
+        let mut waiting = vec![Vec::new(); level(WIDE) + 1];
+        waiting[level(WIDE)] = (0..2 * seeds.len()).collect();
+        while let Some(slots) = waiting.pop() {
+            for slot in slots {
+                let (index, at) = (slot / 2, seeds[slot / 2].at);
+                let way = self.ways(&seeds[index])[slot % 2];
+                let Some(along) = unit(way.heading).filter(|_| !way.taken) else {
+                    continue;
+                };
+                let separation = self.spacing.at(at, way.family);
+                let room = self
+                    .room(at, along, WIDE * separation)
+                    .map_or(WIDE, |near| near / separation);
+                if room < 1.0 {
+                    continue;
+                }
+                match waiting.get_mut(level(room)) {
+                    Some(lower) => lower.push(slot),
+                    None => {
+                        self.start(at, way.heading, way.family, index, 1.0);
+                    }
+                }
             }
         }
     }

@@ -53,9 +53,8 @@ use spacing::Spacing;
 ///
 /// # Complexity
 ///
-/// Linear in the total length of the lines and in the number of seeds; with
-/// [`Strategy::Farthest`] times the logarithm of the latter, at several times the
-/// cost.
+/// Linear in the total length of the lines and in the number of seeds, with
+/// [`Strategy::Farthest`] at a somewhat higher cost.
 ///
 /// # Errors
 ///

@@ -13,7 +13,7 @@ pub enum Strategy {
     #[default]
     Neighbour,
     /// Each line starts at the seed that is farthest from all others, in
-    /// separations (A. Mebarki, P. Alliez, O. Devillers, *Farthest Point
+    /// sixteenths of a separation (A. Mebarki, P. Alliez, O. Devillers, *Farthest Point
     /// Seeding for Efficient Placement of Streamlines*, 2005): longer lines,
     /// and a set that is evenly spread at any moment.
     Farthest,
