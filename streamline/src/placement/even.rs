@@ -16,7 +16,7 @@ use crate::vector::{distance, left, unit, Point};
 use std::ops::Range;
 
 /// Distance between the places of a line that are looked at, in separations.
-const PIECE: f64 = 0.25;
+const PIECE: f64 = 0.4;
 /// Shorter stretches stay, in separations: two more ends at either side of one
 /// would be worse.
 const LEAST: f64 = 1.5;

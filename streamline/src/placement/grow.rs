@@ -154,13 +154,10 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
         // exactly spaced, and rows of them begun far apart do not fit.
         while self.across < self.lines.len() {
             if self.beside < self.lines.len() {
-                let line = self.lines[self.beside].clone();
-                self.sweep(&line, Side::Beside(1.0));
-                self.sweep(&line, Side::Beside(-1.0));
+                self.sweep(self.beside, &[Side::Beside(1.0), Side::Beside(-1.0)]);
                 self.beside += 1;
             } else {
-                let line = self.lines[self.across].clone();
-                self.sweep(&line, Side::Across);
+                self.sweep(self.across, &[Side::Across]);
                 self.across += 1;
             }
         }
@@ -280,7 +277,10 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
         });
         let line = line.filter(|line| {
             watch.finish(line);
-            line.points.len() > 1 && line.length() >= self.options.min_length * separation
+            let least = self.options.min_length * separation;
+            let ends = (line.points.first(), line.points.last());
+            let far = matches!(ends, (Some(&a), Some(&b)) if distance(a, b) > least);
+            line.points.len() > 1 && (far || line.length() >= least)
         });
         match line {
             Some(mut line) => {
@@ -296,24 +296,47 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
         }
     }
 
-    /// Tries places along a line, each as far on as the lines near the last one
-    /// demand.
-    fn sweep(&mut self, line: &Streamline, side: Side) {
-        let family = match side {
-            Side::Beside(_) => line.family,
-            Side::Across => 1 - line.family,
+    /// Tries places along a line, on its sides in turn.
+    fn sweep(&mut self, index: usize, sides: &[Side]) {
+        let family = self.lines[index].family;
+        let wanted = |side: &&Side| {
+            let family = match side {
+                Side::Beside(_) => family,
+                Side::Across => 1 - family,
+            };
+            self.options.families[usize::from(family)]
         };
-        if !self.options.families[usize::from(family)] {
+        let sides: Vec<Side> = sides.iter().filter(wanted).copied().collect();
+        if sides.is_empty() {
             return;
         }
-        let clearance = match side {
-            Side::Beside(_) => CLEARANCE.max(self.options.test),
-            Side::Across => 1.0,
+        // Nobody asks for its points meanwhile.
+        let points = std::mem::take(&mut self.lines[index].points);
+        let pieces = points.windows(2);
+        let lengths: Vec<f64> = pieces.map(|pair| distance(pair[0], pair[1])).collect();
+        let seed = self.lines[index].seed_index;
+        for side in sides {
+            self.sweep_side(&points, &lengths, (family, seed), side);
+        }
+        self.lines[index].points = points;
+    }
+
+    /// Tries places on one side of a line, each as far on as the lines near the
+    /// last one demand.
+    fn sweep_side(
+        &mut self,
+        points: &[Point],
+        lengths: &[f64],
+        (line_family, seed): (u8, usize),
+        side: Side,
+    ) {
+        let (family, clearance) = match side {
+            Side::Beside(_) => (line_family, CLEARANCE.max(self.options.test)),
+            Side::Across => (1 - line_family, 1.0),
         };
         // Where the next place lies, from the start of the piece in question.
         let mut ahead = 0.0;
-        for pair in line.points.windows(2) {
-            let length = distance(pair[0], pair[1]);
+        for (pair, &length) in points.windows(2).zip(lengths) {
             while ahead <= length && length > 0.0 {
                 let way = (pair[1] - pair[0]) / length;
                 let on = pair[0] + way * ahead;
@@ -327,7 +350,7 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
                     }
                     Side::Across => (on, left(way)),
                 };
-                ahead += self.try_at(at, heading, family, line.seed_index, clearance);
+                ahead += self.try_at(at, heading, family, seed, clearance);
             }
             ahead -= length;
         }
