@@ -1,177 +1,12 @@
 //! The lines so far, as chords in a growing grid: how near is the nearest one
 //! that runs alongside?
 
-use crate::vector::{cross, dot, norm, point, Point};
+use super::near::{Chord, Nearest, Own, Search, Vicinity, END, LATER, TURN};
+use crate::vector::{cross, dot, point, Point};
 use std::ops::Range;
 
-/// Cosine of 45 degrees: below it two lines cross rather than run alongside.
-const ALONGSIDE: f64 = std::f64::consts::FRAC_1_SQRT_2;
-/// Cosine of 60 degrees: what may come alongside before the next look.
-const SOON: f64 = 0.5;
-/// Cosine of 75 degrees, and of the 15 degrees by which a line may turn until
-/// what came within 75 degrees of it comes within 60.
-const LATER: f64 = 0.2588;
-const TURN: f64 = 0.966;
 /// Most cells of the grid; beyond it cells grow.
 const MOST_CELLS: usize = 1 << 24;
-
-/// Ends the list of a cell.
-const END: u32 = u32::MAX;
-
-/// A stretch of a line, replaced by its chord.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Chord {
-    middle: Point,
-    /// Unit vector.
-    along: Point,
-    half: f64,
-    /// Arc length of the middle from the line's seed, negative behind it.
-    arc: f64,
-    /// Which line.
-    line: u32,
-    /// The chord before it in its cell.
-    next: u32,
-    /// Which family that line was started in.
-    family: u8,
-}
-
-impl Chord {
-    /// `None` if the two points are the same.
-    pub(super) fn new(a: Point, b: Point, line: u32, family: u8, arc: f64) -> Option<Self> {
-        let length = norm(b - a);
-        (length > 0.0).then(|| Self {
-            middle: (a + b) / 2.0,
-            along: (b - a) / length,
-            half: 0.5 * length,
-            arc,
-            line,
-            next: END,
-            family,
-        })
-    }
-
-    /// Squared distance from `p`, and the signed distance along the chord of
-    /// the perpendicular's foot from its middle.
-    fn offset(&self, p: Point) -> (f64, f64) {
-        let off = p - self.middle;
-        let foot = dot(off, self.along);
-        let beyond = (foot.abs() - self.half).max(0.0);
-        let aside = cross(self.along, off);
-        (aside * aside + beyond * beyond, foot)
-    }
-}
-
-/// What a line that is being traced needs to recognise its own chords.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Own {
-    pub(super) line: u32,
-    /// Arc length at the point in question.
-    pub(super) arc: f64,
-    /// Own chords nearer than this along the line are neighbours, not
-    /// approaches.
-    pub(super) gap: f64,
-}
-
-/// The nearest chord that runs alongside.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Nearest {
-    pub(super) distance: f64,
-    /// Its line is the one that asks.
-    pub(super) own: bool,
-    /// The family that its line was started in.
-    pub(super) family: u8,
-}
-
-/// The nearest of a number of chords.
-struct Search {
-    p: Point,
-    along: Point,
-    own: Option<Own>,
-    min_cosine: f64,
-    /// Square of the distance within which a chord would be the nearest so far.
-    limit: f64,
-    best: Option<(bool, u8)>,
-}
-
-impl Search {
-    /// Within `reach` of `p`, among those that run within 45 degrees of the unit
-    /// vector `along`; between 45 and 60 degrees too if `soon`. Of an own chord
-    /// only what `p` is abreast of counts, so that a closing loop may come up
-    /// to its seed from behind.
-    fn new(p: Point, along: Point, reach: f64, own: Option<Own>, soon: bool) -> Self {
-        Self {
-            p,
-            along,
-            own,
-            min_cosine: if soon { SOON } else { ALONGSIDE },
-            limit: reach * reach,
-            best: None,
-        }
-    }
-
-    #[inline]
-    fn look(&mut self, chord: &Chord) {
-        if dot(chord.along, self.along).abs() <= self.min_cosine {
-            return;
-        }
-        let (square, foot) = chord.offset(self.p);
-        if square >= self.limit {
-            return;
-        }
-        let mut is_own = false;
-        if let Some(own) = self.own.filter(|own| own.line == chord.line) {
-            if (own.arc - chord.arc).abs() < own.gap + chord.half || foot.abs() > chord.half {
-                return;
-            }
-            is_own = true;
-        }
-        self.limit = square;
-        self.best = Some((is_own, chord.family));
-    }
-
-    fn nearest(self) -> Option<Nearest> {
-        self.best.map(|(own, family)| Nearest {
-            distance: self.limit.sqrt(),
-            own,
-            family,
-        })
-    }
-}
-
-/// The chords near a line's head, gathered once for a stretch of it.
-#[derive(Debug, Default)]
-pub(super) struct Vicinity {
-    chords: Vec<Chord>,
-    centre: Point,
-    along: Point,
-    /// How far from the centre looks are answered; none at first.
-    radius: f64,
-}
-
-impl Vicinity {
-    /// Whether looks from `p` along the unit vector `along` are answered, for
-    /// the reach and the line that it was gathered for.
-    pub(super) fn serves(&self, p: Point, along: Point) -> bool {
-        let off = p - self.centre;
-        dot(off, off) <= self.radius * self.radius && dot(along, self.along).abs() >= TURN
-    }
-
-    /// [`Chords::nearest`].
-    pub(super) fn nearest(
-        &self,
-        p: Point,
-        along: Point,
-        reach: f64,
-        own: Own,
-        soon: bool,
-    ) -> Option<Nearest> {
-        let mut search = Search::new(p, along, reach, Some(own), soon);
-        for chord in &self.chords {
-            search.look(chord);
-        }
-        search.nearest()
-    }
-}
 
 /// Chords by the cell of their middle. The grid grows where the lines go;
 /// nothing depends on its size.
@@ -454,7 +289,7 @@ mod tests {
             let found = chords.nearest(p, along, 25.0);
             let expected = all
                 .iter()
-                .filter(|(a, b)| dot(*b - *a, along).abs() > ALONGSIDE * distance(*a, *b))
+                .filter(|(a, b)| dot(*b - *a, along).abs() > 0.5_f64.sqrt() * distance(*a, *b))
                 .map(|&(a, b)| distance(nearest_on_segment(p, a, b), p))
                 .min_by(f64::total_cmp)
                 .filter(|&d| d < 25.0);
@@ -494,6 +329,31 @@ mod tests {
             assert!(!vicinity.serves(p + point(8.1, 0.0), way(i as f64)));
             assert!(!vicinity.serves(p, way(i as f64 + 0.3)));
         }
+    }
+
+    #[test]
+    fn hidden_chords_are_not_seen_until_shown() {
+        let mut chords = Chords::new(point(0.0, 0.0), point(50.0, 50.0), 10.0);
+        for (line, y) in [(0, 2.0), (1, -7.0)] {
+            let chord = Chord::new(point(0.0, y), point(5.0, y), line, 0, 2.5);
+            chords.push(chord.unwrap());
+        }
+        let east = point(1.0, 0.0);
+        let own = Own {
+            line: 9,
+            arc: 0.0,
+            gap: 0.0,
+        };
+        let sides = |chords: &Chords| chords.beside(point(2.0, 0.0), east, 10.0, own);
+        assert_eq!(sides(&chords), [Some(2.0), Some(7.0)]);
+        assert_eq!(
+            chords.beside(point(2.0, 0.0), east * -1.0, 5.0, own),
+            [None, Some(2.0)]
+        );
+        let hidden = chords.hide(0..1);
+        assert_eq!(sides(&chords), [None, Some(7.0)]);
+        chords.show(0, &hidden);
+        assert_eq!(sides(&chords), [Some(2.0), Some(7.0)]);
     }
 
     #[test]

@@ -6,8 +6,8 @@
 //! d_test (for `widest` is at least 1.5 `test`), and two lines at the thirds fit
 //! where it was.
 
-use super::chords::Own;
 use super::grow::Placer;
+use super::near::Own;
 use super::watch::Watch;
 use crate::field::DirectionField;
 use crate::streamline::Streamline;
@@ -271,4 +271,113 @@ fn without(line: &Streamline, stretch: &Range<usize>) -> [Option<Streamline>; 2]
         part(0..stretch.start + 1, line.start, Stop::Neighbour),
         part(stretch.end..line.points.len(), Stop::Neighbour, line.end),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::candidates::Seed;
+    use crate::field::from_fn;
+    use crate::placement::spacing::Spacing;
+    use crate::placement::PlacementOptions;
+    use crate::vector::point;
+    use geo_types::polygon;
+
+    fn east(y: f64, from: f64, to: f64) -> Streamline {
+        let points: Vec<Point> = (0..=40)
+            .map(|i| point(from + (to - from) * f64::from(i) / 40.0, y))
+            .collect();
+        Streamline {
+            seed: points[3],
+            points,
+            start: Stop::FieldEnd,
+            end: Stop::LengthLimit,
+            family: 0,
+            seed_index: 7,
+        }
+    }
+
+    #[test]
+    fn what_is_left_keeps_its_ends_and_has_a_seed() {
+        let line = east(0.0, 0.0, 40.0);
+        assert_eq!(arc_of_seed(&line), 3.0);
+        let [before, after] = without(&line, &(10..25)).map(Option::unwrap);
+        assert_eq!((before.points.len(), after.points.len()), (11, 16));
+        assert_eq!(
+            (before.start, before.end),
+            (Stop::FieldEnd, Stop::Neighbour)
+        );
+        assert_eq!(
+            (after.start, after.end),
+            (Stop::Neighbour, Stop::LengthLimit)
+        );
+        assert_eq!((before.seed, after.seed_index), (line.seed, 7));
+        assert!(after.points.contains(&after.seed));
+        // Nothing before, one point after.
+        assert_eq!(without(&line, &(0..40)), [None, None]);
+    }
+
+    /// Lines to the east at the given heights, across a square of 400 m, with a
+    /// separation of 20 m: what becomes of them.
+    fn evened(heights: &[f64]) -> Vec<f64> {
+        let square =
+            polygon![(x: 0., y: 0.), (x: 400., y: 0.), (x: 400., y: 400.), (x: 0., y: 400.)];
+        let field = from_fn(square, |_, _| Some(point(1.0, 0.0)));
+        let options = PlacementOptions {
+            separation: [20.0; 2],
+            test: 0.86,
+            widest: Some(1.29),
+            families: [true, false],
+            ..PlacementOptions::default()
+        };
+        let seeds: Vec<Seed> = heights
+            .iter()
+            .map(|&y| Seed {
+                at: point(200.0, y),
+                directions: [point(1.0, 0.0), point(0.0, 1.0)],
+            })
+            .collect();
+        let spacing = Spacing::new(options.separation, &|_| 1.0, &seeds).unwrap();
+        let mut placer = Placer::new(&field, &options, &spacing, &seeds);
+        for (i, seed) in seeds.iter().enumerate() {
+            assert!(placer.start(seed.at, seed.directions[0], 0, i, 0.86));
+        }
+        // Without sweeps: they would fill the square.
+        for index in 0..heights.len() {
+            for lonely in placer.lonely(index, 1.29) {
+                placer.replace(index, &lonely);
+            }
+        }
+        let whole = placer.lines.iter().filter(|line| !line.points.is_empty());
+        let mut heights: Vec<f64> = whole.map(|line| line.points[0].y).collect();
+        heights.sort_by(f64::total_cmp);
+        heights
+    }
+
+    #[test]
+    fn two_lines_take_the_place_of_a_lonely_one() {
+        let same = |found: Vec<f64>, expected: &[f64]| {
+            let near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-9;
+            assert!(
+                found.len() == expected.len() && found.iter().zip(expected).all(near),
+                "{found:?}"
+            );
+        };
+        // Gaps of 28 m, 1.4 separations, on both sides of the middle one.
+        let thirds = [128.0 - 28.0 / 3.0, 128.0 + 28.0 / 3.0];
+        same(
+            evened(&[80.0, 100.0, 128.0, 156.0, 176.0]),
+            &[80.0, 100.0, thirds[0], thirds[1], 156.0, 176.0],
+        );
+        // Next to the boundary lines move nearer to their only neighbour: to
+        // 1.02 * 0.86 / 1.29 = 0.68 of the gap.
+        same(
+            evened(&[100.0, 128.0, 156.0]),
+            &[128.0 - 0.68 * 28.0, 128.0, 128.0 + 0.68 * 28.0],
+        );
+        // Near enough on one side: nobody is lonely.
+        assert_eq!(evened(&[100.0, 128.0, 150.0]).len(), 3);
+        // One line alone has nothing to go by.
+        assert_eq!(evened(&[200.0]), [200.0]);
+    }
 }

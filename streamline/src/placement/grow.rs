@@ -1,6 +1,7 @@
 //! Placing line after line: beside earlier ones, or where most room is left.
 
-use super::chords::{Chords, Nearest};
+use super::chords::Chords;
+use super::near::Nearest;
 use super::options::{PlacementOptions, Strategy};
 use super::spacing::Spacing;
 use super::watch::Watch;

@@ -5,6 +5,7 @@ mod even;
 mod grow;
 mod junction;
 mod lattice;
+mod near;
 mod options;
 mod spacing;
 mod watch;
@@ -49,6 +50,9 @@ use spacing::Spacing;
 /// - Every seed has, of each orientation, a line within d_sep that runs
 ///   alongside, or the line through it would have been too short. With
 ///   [`Ends::Junction`] this holds before ends are cut.
+/// - With [`PlacementOptions::widest`] all but a few points (under 1 % where we
+///   measured it, with [`Strategy::Neighbour`]) have another line within that
+///   many separations, on one side or the other.
 /// - The same input gives the same lines, in the same order.
 ///
 /// # Complexity

@@ -53,12 +53,13 @@ pub struct PlacementOptions {
     /// boundary, one that is nearer to its neighbour. At least 1.5 times
     /// [`test`](Self::test), or two would not fit.
     ///
-    /// Spacing gets more even, at the price of more and shorter lines and of
-    /// about two thirds more time. With 1.29 and a `test` of 0.86 hardly a point
-    /// is farther than 1.3 separations from the nearest other line; without it
-    /// one in ten is, where a field spreads.
+    /// Spacing gets more even, at the price of more and shorter lines and of a
+    /// third more time. With 1.29 and a `test` of 0.86 fewer than one point in a
+    /// hundred is farther than 1.3 separations from the nearest other line;
+    /// without it one in eight is, where a field spreads. Closed lines stay
+    /// whole.
     ///
-    /// Default value: none, which leaves lines whole.
+    /// Default value: none, which leaves all lines whole.
     pub widest: Option<f64>,
     /// Shorter lines are dropped, as a share of the separation.
     ///

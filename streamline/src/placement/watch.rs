@@ -1,6 +1,7 @@
 //! What keeps a line that is being traced apart from the others and itself.
 
-use super::chords::{Chord, Chords, Own, Vicinity};
+use super::chords::Chords;
+use super::near::{Chord, Own, Vicinity};
 use super::spacing::Spacing;
 use crate::streamline::Streamline;
 use crate::trace::Stop;
