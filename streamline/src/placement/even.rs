@@ -26,7 +26,7 @@ const ENOUGH: f64 = 1.1;
 /// Chords of its own nearer along a line than this many separations are no
 /// neighbours of it.
 const OWN_GAP: f64 = 3.0;
-/// Most rounds: each leaves some tenth of what the one before it found.
+/// Most rounds; more find nothing.
 const ROUNDS: usize = 4;
 /// A neighbour farther than this many times the widest gap is none.
 const REACH: f64 = 1.6;
