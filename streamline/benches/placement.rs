@@ -34,6 +34,14 @@ fn placement(c: &mut Criterion) {
         let cases = [
             ("neighbour", fine),
             (
+                "neighbour, none lonely",
+                PlacementOptions {
+                    test: 0.86,
+                    widest: Some(1.29),
+                    ..fine
+                },
+            ),
+            (
                 "farthest",
                 PlacementOptions {
                     strategy: Strategy::Farthest,

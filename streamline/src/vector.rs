@@ -24,6 +24,7 @@ pub(crate) fn left(a: Point) -> Point {
 
 /// Length, by a square root where the squares stay in range: several times
 /// faster than `hypot`, which is left to extreme input.
+#[inline]
 pub(crate) fn norm(a: Point) -> f64 {
     let square = dot(a, a);
     if square > 1e-200 && square < 1e200 {
@@ -42,6 +43,7 @@ pub(crate) fn is_finite(a: Point) -> bool {
 }
 
 /// The unit vector along `a`; `None` if it has no length or is not finite.
+#[inline]
 pub(crate) fn unit(a: Point) -> Option<Point> {
     let length = norm(a);
     (length > 0.0 && length.is_finite()).then(|| a / length)

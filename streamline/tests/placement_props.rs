@@ -7,7 +7,7 @@ use geo_types::{coord, polygon, Polygon, Rect};
 use proptest::prelude::*;
 use streamline::{
     arm_nearest, from_fn, lattice, place, place_scaled, Cursor, DirectionField, Ends,
-    PlacementOptions, Seed, Stop, Strategy as Order, Streamline, TraceError,
+    PlacementOptions, Seed, Stop, Strategy as Order, Streamline, TraceError, TraceOptions,
 };
 use support::*;
 
@@ -19,14 +19,16 @@ fn extent() -> Rect<f64> {
 fn options() -> impl Strategy<Value = PlacementOptions> {
     let separation = (14.0..45.0_f64, 14.0..45.0_f64).prop_map(|(a, b)| [a, b]);
     let strategy = prop_oneof![Just(Order::Neighbour), Just(Order::Farthest)];
-    (separation, 0.4..0.95_f64, strategy).prop_map(|(separation, test, strategy)| {
-        PlacementOptions {
+    let widest = prop::option::of(1.5..2.0_f64);
+    (separation, 0.4..0.95_f64, strategy, widest).prop_map(
+        |(separation, test, strategy, widest)| PlacementOptions {
             separation,
             test,
+            widest: widest.map(|factor| factor * test),
             strategy,
             ..PlacementOptions::default()
-        }
-    })
+        },
+    )
 }
 
 /// A smooth cross, or one with a singularity of a quarter turn either way.
@@ -283,6 +285,87 @@ fn concentric_circles_close_and_keep_their_distance() {
     for pair in radii.windows(2) {
         // Chords are 0.002 d_sep off.
         assert!((pair[1] - pair[0] - 25.0).abs() < 0.1, "{radii:?}");
+    }
+}
+
+/// For each point of each line the distance to the nearest point of another
+/// one, ascending, by looking at all of them within 45 m.
+fn to_others(lines: &[Streamline]) -> Vec<f64> {
+    let cell = |p: P| {
+        (
+            ((p.x + 500.0) / 45.0) as usize,
+            ((p.y + 500.0) / 45.0) as usize,
+        )
+    };
+    let mut cells = vec![vec![Vec::new(); 25]; 25];
+    for (i, line) in lines.iter().enumerate() {
+        for &p in &line.points {
+            let (x, y) = cell(p);
+            cells[x + 1][y + 1].push((i, p));
+        }
+    }
+    let mut all = Vec::new();
+    for (i, line) in lines.iter().enumerate() {
+        for &p in &line.points {
+            let (x, y) = cell(p);
+            let near = cells[x..=x + 2]
+                .iter()
+                .flat_map(|column| &column[y..=y + 2]);
+            let others = near.flatten().filter(|other| other.0 != i);
+            all.push(
+                others
+                    .map(|other| norm(other.1 - p))
+                    .fold(f64::INFINITY, f64::min),
+            );
+        }
+    }
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+/// With `widest` of 1.5 times `test` nearly no point lacks a near neighbour,
+/// even where the field spreads and gathers by a factor of two within 180 m.
+#[test]
+fn no_line_is_lonely() {
+    for strength in [1.0, 0.25] {
+        let field = from_fn(square(500.0), |at, _| {
+            let wave = 0.5 * (at.x / 130.0 + at.y / 410.0).sin()
+                + 0.4 * (at.y / 170.0 - at.x / 600.0).cos();
+            let (sin, cos) = f64::sin_cos(0.3 + strength * wave);
+            Some(coord! { x: cos, y: sin })
+        });
+        let seeds = seeds_in(&field, 500.0, 10.0);
+        let options = PlacementOptions {
+            separation: [20.0; 2],
+            test: 0.86,
+            families: [true, false],
+            trace: TraceOptions {
+                step: 1.0,
+                ..PlacementOptions::default().trace
+            },
+            ..PlacementOptions::default()
+        };
+        let share = |options: &PlacementOptions| {
+            let all = to_others(&place(&field, &seeds, options).unwrap());
+            let count = all.len() as f64;
+            (
+                all[(0.01 * count) as usize] / 20.0,
+                all.iter().filter(|&&d| d > 26.0).count() as f64 / count,
+            )
+        };
+        let (near, far) = share(&options);
+        assert!(
+            near > 0.85 && far > 0.1,
+            "strength {strength}: {near} {far}"
+        );
+        let (near, far) = share(&PlacementOptions {
+            widest: Some(1.29),
+            ..options
+        });
+        assert!(
+            near > 0.85 && far < 0.01,
+            "strength {strength}: {near} {far}"
+        );
     }
 }
 

@@ -18,6 +18,8 @@ const SLACK: f64 = 1e-9;
 pub(super) struct Clearance {
     low: Point,
     cell: f64,
+    /// 1 / `cell`.
+    scale: f64,
     columns: usize,
     rows: usize,
     /// Empty for a domain without extent, for which nothing is known.
@@ -45,6 +47,7 @@ impl Clearance {
         let mut raster = Self {
             low,
             cell,
+            scale: 1.0 / cell,
             columns,
             rows,
             steps: vec![i16::MAX; columns * rows],
@@ -147,10 +150,11 @@ impl Clearance {
         }
     }
 
+    #[inline]
     fn steps(&self, p: Point) -> i16 {
         let (x, y) = (
-            (p.x - self.low.x) / self.cell,
-            (p.y - self.low.y) / self.cell,
+            (p.x - self.low.x) * self.scale,
+            (p.y - self.low.y) * self.scale,
         );
         // Not so for NaN either.
         if !(x >= 0.0 && y >= 0.0) {

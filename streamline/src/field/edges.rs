@@ -137,12 +137,13 @@ impl Edges {
     pub(super) fn exit(&self, from: Point, to: Point) -> Option<Exit> {
         let (p, q) = (from - self.centre, to - self.centre);
         let run = q - p;
-        let length = norm(run);
-        if !(is_finite(p) && is_finite(q) && length > 0.0) {
+        // Nothing to meet on the way.
+        let free = self.clearance.around(p) - 2.0 * self.skin;
+        if free > 0.0 && dot(run, run) < free * free {
             return None;
         }
-        // Nothing to meet on the way.
-        if self.clearance.around(p) > length + 2.0 * self.skin {
+        let length = norm(run);
+        if !(is_finite(p) && is_finite(q) && length > 0.0) {
             return None;
         }
         let skin = point(self.skin, self.skin);

@@ -27,8 +27,10 @@ pub struct FromFn<F> {
 ///
 /// # Complexity
 ///
-/// Building is O(n log n) in the boundary's vertices; each call afterwards
-/// costs about as many edge tests as a horizontal ray meets edges.
+/// Building is O(n log n) in the boundary's vertices, and lays a raster of 128
+/// cells a side. Calls away from the boundary, by a cell or the length of the
+/// step, are answered by it at once; others cost about as many edge tests as a
+/// horizontal ray meets edges.
 ///
 /// # Examples
 ///

@@ -1,88 +1,28 @@
 //! The lines so far, as chords in a growing grid: how near is the nearest one
 //! that runs alongside?
 
-use crate::vector::{cross, dot, norm, point, Point};
+use super::near::{Chord, Nearest, Own, Search, Vicinity, END, LATER, TURN};
+use crate::vector::{cross, dot, point, Point};
+use std::ops::Range;
 
-/// Cosine of 45 degrees: below it two lines cross rather than run alongside.
-const ALONGSIDE: f64 = std::f64::consts::FRAC_1_SQRT_2;
-/// Cosine of 60 degrees: what may come alongside before the next look.
-const SOON: f64 = 0.5;
 /// Most cells of the grid; beyond it cells grow.
 const MOST_CELLS: usize = 1 << 24;
 
-/// A stretch of a line, replaced by its chord.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Chord {
-    middle: Point,
-    /// Unit vector.
-    along: Point,
-    half: f64,
-    /// Which line.
-    line: u32,
-    /// Which family that line was started in.
-    family: u8,
-    /// Arc length of the middle from the line's seed, negative behind it.
-    arc: f64,
-}
-
-impl Chord {
-    /// `None` if the two points are the same.
-    pub(super) fn new(a: Point, b: Point, line: u32, family: u8, arc: f64) -> Option<Self> {
-        let length = norm(b - a);
-        (length > 0.0).then(|| Self {
-            middle: (a + b) / 2.0,
-            along: (b - a) / length,
-            half: 0.5 * length,
-            line,
-            family,
-            arc,
-        })
-    }
-
-    /// Squared distance from `p`, and the signed distance along the chord of
-    /// the perpendicular's foot from its middle.
-    fn offset(&self, p: Point) -> (f64, f64) {
-        let off = p - self.middle;
-        let foot = dot(off, self.along);
-        let beyond = (foot.abs() - self.half).max(0.0);
-        let aside = cross(self.along, off);
-        (aside * aside + beyond * beyond, foot)
-    }
-}
-
-/// What a line that is being traced needs to recognise its own chords.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Own {
-    pub(super) line: u32,
-    /// Arc length at the point in question.
-    pub(super) arc: f64,
-    /// Own chords nearer than this along the line are neighbours, not
-    /// approaches.
-    pub(super) gap: f64,
-}
-
-/// The nearest chord that runs alongside.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Nearest {
-    pub(super) distance: f64,
-    /// Its line is the one that asks.
-    pub(super) own: bool,
-    /// The family that its line was started in.
-    pub(super) family: u8,
-}
-
-/// Chords by the cell of their middle. Cells grow where the lines go; nothing
-/// depends on their number.
+/// Chords by the cell of their middle. The grid grows where the lines go;
+/// nothing depends on its size.
 #[derive(Debug)]
 pub(super) struct Chords {
     cell: f64,
+    /// 1 / `cell`.
+    scale: f64,
     low: Point,
     columns: usize,
     rows: usize,
-    cells: Vec<Vec<Chord>>,
+    /// The last chord of each cell, which names the one before it.
+    last: Vec<u32>,
+    /// In order of insertion, so that the last ones can be taken back.
+    chords: Vec<Chord>,
     longest_half: f64,
-    /// Middles in order of insertion, to take the last ones back.
-    order: Vec<Point>,
 }
 
 impl Chords {
@@ -90,12 +30,13 @@ impl Chords {
     pub(super) fn new(low: Point, high: Point, cell: f64) -> Self {
         let mut chords = Self {
             cell,
+            scale: 1.0 / cell,
             low,
             columns: 0,
             rows: 0,
-            cells: Vec::new(),
+            last: Vec::new(),
+            chords: Vec::new(),
             longest_half: 0.0,
-            order: Vec::new(),
         };
         chords.lay_out(low, high);
         chords
@@ -107,20 +48,25 @@ impl Chords {
         while (width / self.cell + 1.0) * (height / self.cell + 1.0) > MOST_CELLS as f64 {
             self.cell *= 2.0;
         }
-        let old = std::mem::take(&mut self.cells);
         self.low = low;
+        self.scale = 1.0 / self.cell;
         self.columns = (width / self.cell) as usize + 1;
         self.rows = (height / self.cell) as usize + 1;
-        self.cells = vec![Vec::new(); self.columns * self.rows];
-        for chord in old.into_iter().flatten() {
-            let index = self.index(chord.middle);
-            self.cells[index].push(chord);
+        self.last = vec![END; self.columns * self.rows];
+        for i in 0..self.chords.len() {
+            self.link(i);
         }
     }
 
+    /// Puts a chord at the head of its cell's list.
+    fn link(&mut self, i: usize) {
+        let index = self.index(self.chords[i].middle);
+        self.chords[i].next = std::mem::replace(&mut self.last[index], i as u32);
+    }
+
     fn index(&self, p: Point) -> usize {
-        let x = ((p.x - self.low.x) / self.cell) as usize;
-        let y = ((p.y - self.low.y) / self.cell) as usize;
+        let x = ((p.x - self.low.x) * self.scale) as usize;
+        let y = ((p.y - self.low.y) * self.scale) as usize;
         y.min(self.rows - 1) * self.columns + x.min(self.columns - 1)
     }
 
@@ -129,7 +75,7 @@ impl Chords {
     }
 
     pub(super) fn len(&self) -> usize {
-        self.order.len()
+        self.chords.len()
     }
 
     pub(super) fn push(&mut self, chord: Chord) {
@@ -163,80 +109,154 @@ impl Chords {
             );
             self.lay_out(new_low, new_high);
         }
-        let index = self.index(p);
-        self.cells[index].push(chord);
-        self.order.push(p);
+        self.chords.push(chord);
+        self.link(self.chords.len() - 1);
         self.longest_half = self.longest_half.max(chord.half);
     }
 
     /// Takes back all but the first `len` chords.
     pub(super) fn truncate(&mut self, len: usize) {
-        while self.order.len() > len {
-            if let Some(middle) = self.order.pop() {
-                let index = self.index(middle);
-                let cell = &mut self.cells[index];
-                // The last one, unless the grid was laid out anew since.
-                if let Some(i) = cell.iter().rposition(|c| c.middle == middle) {
-                    cell.remove(i);
-                }
+        while self.chords.len() > len {
+            if let Some(chord) = self.chords.pop() {
+                let index = self.index(chord.middle);
+                self.last[index] = chord.next;
             }
         }
     }
 
     /// The nearest chord within `reach` of `p` that runs within 45 degrees of
-    /// the unit vector `along`; between 45 and 60 degrees too if `soon`. Of an
-    /// own chord only what `p` is abreast of counts, so that a closing loop may
-    /// come up to its seed from behind.
-    pub(super) fn nearest(
+    /// the unit vector `along`.
+    pub(super) fn nearest(&self, p: Point, along: Point, reach: f64) -> Option<Nearest> {
+        self.near(p, along, (reach, 0.0), None)
+    }
+
+    /// [`nearest`](Self::nearest), or any that is nearer than `enough`. Of an
+    /// own chord only what `p` is abreast of counts.
+    pub(super) fn near(
         &self,
         p: Point,
         along: Point,
-        reach: f64,
+        (reach, enough): (f64, f64),
         own: Option<Own>,
-        soon: bool,
     ) -> Option<Nearest> {
-        let min_cosine = if soon { SOON } else { ALONGSIDE };
-        let mut best: Option<(f64, bool, u8)> = None;
-        let mut limit = reach * reach;
-        self.visit(p, reach, |chord| {
-            if dot(chord.along, along).abs() <= min_cosine {
-                return;
+        let mut search = Search::new(p, along, reach, own, false);
+        // What is found at once narrows the rest.
+        let home = self.index(p);
+        self.look_into(home..home + 1, |chord| search.look(chord));
+        let wide = search.limit.sqrt() + self.longest_half;
+        let (bottom, top) = self.span(p.y, wide, self.low.y, self.rows);
+        let middle = home / self.columns;
+        for y in (middle..=top).chain((bottom..middle).rev()) {
+            if search.limit < enough * enough {
+                break;
             }
-            let (square, foot) = chord.offset(p);
-            if square >= limit {
-                return;
-            }
-            let mut is_own = false;
-            if let Some(own) = own.filter(|own| own.line == chord.line) {
-                if (own.arc - chord.arc).abs() < own.gap + chord.half || foot.abs() > chord.half {
-                    return;
-                }
-                is_own = true;
-            }
-            limit = square;
-            best = Some((square, is_own, chord.family));
-        });
-        best.map(|(square, own, family)| Nearest {
-            distance: square.sqrt(),
-            own,
-            family,
-        })
+            let wide = search.limit.sqrt() + self.longest_half;
+            self.look_along(y, p, wide, |chord| search.look(chord));
+        }
+        search.nearest()
     }
 
-    fn visit(&self, p: Point, reach: f64, mut look: impl FnMut(&Chord)) {
+    /// Distances to the nearest chords within `reach` of `p` that run within 45
+    /// degrees of the unit vector `along`, to its left and to its right. Of an
+    /// own chord only what `p` is abreast of counts.
+    pub(super) fn beside(&self, p: Point, along: Point, reach: f64, own: Own) -> [Option<f64>; 2] {
+        let mut searches = [0, 1].map(|_| Search::new(p, along, reach, Some(own), false));
         let wide = reach + self.longest_half;
-        let span = |from: f64, low: f64, count: usize| {
-            let first = ((from - wide - low) / self.cell).max(0.0) as usize;
-            let last = ((from + wide - low) / self.cell).max(0.0) as usize;
-            (first.min(count - 1), last.min(count - 1))
+        let (bottom, top) = self.span(p.y, wide, self.low.y, self.rows);
+        for y in bottom..=top {
+            self.look_along(y, p, wide, |chord| {
+                let right = cross(along, chord.middle - p) < 0.0;
+                searches[usize::from(right)].look(chord);
+            });
+        }
+        searches.map(|search| Some(search.nearest()?.distance))
+    }
+
+    /// Takes chords out of all answers, in place: a chord without a direction
+    /// runs alongside nothing.
+    pub(super) fn hide(&mut self, range: Range<usize>) -> Vec<Chord> {
+        let hidden = self.chords[range.clone()].to_vec();
+        for chord in &mut self.chords[range] {
+            chord.along = Point::zero();
+        }
+        hidden
+    }
+
+    /// Undoes [`hide`](Self::hide).
+    pub(super) fn show(&mut self, from: usize, hidden: &[Chord]) {
+        for (chord, hidden) in self.chords[from..].iter_mut().zip(hidden) {
+            chord.along = hidden.along;
+        }
+    }
+
+    /// Gathers the chords that looks need which reach as far as `reach`, from
+    /// anywhere within `radius` of `p`, by a line that has not turned by more
+    /// than 15 degrees from `along` since. Chords that are added later are not
+    /// among them, nor own ones that stay neighbours all the way.
+    pub(super) fn gather(
+        &self,
+        p: Point,
+        along: Point,
+        own: Own,
+        (reach, radius): (f64, f64),
+        vicinity: &mut Vicinity,
+    ) {
+        (vicinity.centre, vicinity.along, vicinity.radius) = (p, along, radius);
+        vicinity.chords.clear();
+        let wide = reach + radius + self.longest_half;
+        let (bottom, top) = self.span(p.y, wide, self.low.y, self.rows);
+        for y in bottom..=top {
+            self.look_along(y, p, wide, |chord| {
+                // So straight a way out of the circle is at most this long.
+                let gone = (own.arc - chord.arc).abs() + radius / TURN;
+                if chord.line == own.line && gone < own.gap + chord.half {
+                    return;
+                }
+                let off = chord.middle - p;
+                let near = reach + radius + chord.half;
+                if dot(off, off) <= near * near && dot(chord.along, along).abs() >= LATER {
+                    vicinity.chords.push(*chord);
+                }
+            });
+        }
+    }
+
+    /// The cells of one row that a circle of radius `wide` around `p` meets.
+    fn look_along(&self, y: usize, p: Point, wide: f64, mut look: impl FnMut(&Chord)) {
+        let bottom = self.low.y + y as f64 * self.cell;
+        // The first and the last row also hold what lies a hair beyond them.
+        let above = if y == 0 { 0.0 } else { (bottom - p.y).max(0.0) };
+        let below = if y + 1 == self.rows {
+            0.0
+        } else {
+            (p.y - bottom - self.cell).max(0.0)
         };
-        let (x0, x1) = span(p.x, self.low.x, self.columns);
-        let (y0, y1) = span(p.y, self.low.y, self.rows);
-        for y in y0..=y1 {
-            for cell in &self.cells[y * self.columns + x0..=y * self.columns + x1] {
-                cell.iter().for_each(&mut look);
+        let off = above.max(below);
+        if off > wide {
+            return;
+        }
+        let half = (wide * wide - off * off).sqrt() * (1.0 + 1e-9);
+        let (first, last) = self.span(p.x, half, self.low.x, self.columns);
+        let row = y * self.columns;
+        self.look_into(row + first..row + last + 1, &mut look);
+    }
+
+    #[inline]
+    fn look_into(&self, cells: Range<usize>, mut look: impl FnMut(&Chord)) {
+        for &head in &self.last[cells] {
+            let mut i = head;
+            while let Some(chord) = self.chords.get(i as usize) {
+                look(chord);
+                i = chord.next;
             }
         }
+    }
+
+    /// The first and last of a row of cells within `wide` of `from`.
+    fn span(&self, from: f64, wide: f64, low: f64, count: usize) -> (usize, usize) {
+        let first = ((from - wide - low) * self.scale).max(0.0) as usize;
+        let last = ((from + wide - low) * self.scale).max(0.0) as usize;
+        (first.min(count - 1), last.min(count - 1))
     }
 }
 
@@ -266,10 +286,10 @@ mod tests {
         for i in 0..200 {
             let p = point((i * 37 % 450) as f64 - 110.0, (i * 91 % 440) as f64 - 220.0);
             let along = point((i as f64).cos(), (i as f64).sin());
-            let found = chords.nearest(p, along, 25.0, None, false);
+            let found = chords.nearest(p, along, 25.0);
             let expected = all
                 .iter()
-                .filter(|(a, b)| dot(*b - *a, along).abs() > ALONGSIDE * distance(*a, *b))
+                .filter(|(a, b)| dot(*b - *a, along).abs() > 0.5_f64.sqrt() * distance(*a, *b))
                 .map(|&(a, b)| distance(nearest_on_segment(p, a, b), p))
                 .min_by(f64::total_cmp)
                 .filter(|&d| d < 25.0);
@@ -283,6 +303,60 @@ mod tests {
     }
 
     #[test]
+    fn a_vicinity_answers_like_the_whole() {
+        let mut chords = Chords::new(point(0.0, 0.0), point(10.0, 10.0), 9.0);
+        for (i, (a, b)) in random_chords().into_iter().enumerate() {
+            chords.push(Chord::new(a, b, i as u32, 0, 0.0).unwrap());
+        }
+        let own = Own {
+            line: u32::MAX,
+            arc: 0.0,
+            gap: 0.0,
+        };
+        let mut vicinity = Vicinity::default();
+        for i in 0..100 {
+            let p = point((i * 37 % 300) as f64, (i * 91 % 300) as f64 - 100.0);
+            let way = |u: f64| point(u.cos(), u.sin());
+            chords.gather(p, way(i as f64), own, (15.0, 8.0), &mut vicinity);
+            for j in 0..20 {
+                let q = p + way(j as f64) * (0.4 * j as f64);
+                let along = way(i as f64 + 0.025 * (j - 10) as f64);
+                assert!(vicinity.serves(q, along));
+                let some = vicinity.nearest(q, along, 15.0, own, false);
+                let all = chords.nearest(q, along, 15.0);
+                assert_eq!(some.map(|n| n.distance), all.map(|n| n.distance));
+            }
+            assert!(!vicinity.serves(p + point(8.1, 0.0), way(i as f64)));
+            assert!(!vicinity.serves(p, way(i as f64 + 0.3)));
+        }
+    }
+
+    #[test]
+    fn hidden_chords_are_not_seen_until_shown() {
+        let mut chords = Chords::new(point(0.0, 0.0), point(50.0, 50.0), 10.0);
+        for (line, y) in [(0, 2.0), (1, -7.0)] {
+            let chord = Chord::new(point(0.0, y), point(5.0, y), line, 0, 2.5);
+            chords.push(chord.unwrap());
+        }
+        let east = point(1.0, 0.0);
+        let own = Own {
+            line: 9,
+            arc: 0.0,
+            gap: 0.0,
+        };
+        let sides = |chords: &Chords| chords.beside(point(2.0, 0.0), east, 10.0, own);
+        assert_eq!(sides(&chords), [Some(2.0), Some(7.0)]);
+        assert_eq!(
+            chords.beside(point(2.0, 0.0), east * -1.0, 5.0, own),
+            [None, Some(2.0)]
+        );
+        let hidden = chords.hide(0..1);
+        assert_eq!(sides(&chords), [None, Some(7.0)]);
+        chords.show(0, &hidden);
+        assert_eq!(sides(&chords), [Some(2.0), Some(7.0)]);
+    }
+
+    #[test]
     fn truncate_takes_back_the_last() {
         let all = random_chords();
         let mut chords = Chords::new(point(0.0, 0.0), point(0.0, 0.0), 9.0);
@@ -291,9 +365,15 @@ mod tests {
         }
         chords.truncate(10);
         assert_eq!(chords.len(), 10);
-        let left: usize = chords.cells.iter().map(Vec::len).sum();
+        let mut left = 0;
+        for &head in &chords.last {
+            let mut i = head;
+            while let Some(chord) = chords.chords.get(i as usize) {
+                left += 1;
+                i = chord.next;
+            }
+        }
         assert_eq!(left, 10);
-        assert!(chords.cells.iter().flatten().all(|c| c.line < 10));
         assert!(Chord::new(all[0].0, all[0].0, 0, 0, 0.0).is_none());
     }
 
@@ -307,12 +387,17 @@ mod tests {
                 arc,
                 gap: 30.0,
             };
-            chords.nearest(p, point(1.0, 0.0), 10.0, Some(own), false)
+            let mut vicinity = Vicinity::default();
+            let east = point(1.0, 0.0);
+            assert!(!vicinity.serves(p, east));
+            chords.gather(p, east, own, (10.0, 1.0), &mut vicinity);
+            assert!(vicinity.serves(p, east));
+            vicinity.nearest(p, east, 10.0, own, false)
         };
         assert!(ask(point(-1.0, 0.5), 100.0).is_none());
         assert!(ask(point(1.0, 0.5), 20.0).is_none());
         assert!(ask(point(1.0, 0.5), 100.0).unwrap().own);
-        let crossing = chords.nearest(point(1.0, 1.0), point(0.0, 1.0), 10.0, None, true);
+        let crossing = chords.nearest(point(1.0, 1.0), point(0.0, 1.0), 10.0);
         assert!(crossing.is_none());
     }
 }

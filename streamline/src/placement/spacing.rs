@@ -57,11 +57,6 @@ impl<'a> Spacing<'a> {
         separation * (self.scale)(p).max(self.low).min(self.high)
     }
 
-    /// The larger of the two separations at `p`.
-    pub(super) fn widest(&self, p: Point) -> f64 {
-        self.at(p, 0).max(self.at(p, 1))
-    }
-
     /// The smaller separation, as it is on average.
     pub(super) fn typical(&self) -> f64 {
         self.separation[0].min(self.separation[1]) * self.mean
@@ -88,10 +83,7 @@ mod tests {
         assert_eq!(spacing.at(point(4.0, 0.0), 0), 20.0);
         assert_eq!(spacing.at(point(-4.0, 0.0), 0), 10.0);
         assert_eq!(spacing.at(point(9.0, 0.0), 0), 10.0);
-        assert_eq!(
-            (spacing.widest(point(0.0, 0.0)), spacing.typical()),
-            (20.0, 15.0)
-        );
+        assert_eq!(spacing.typical(), 15.0);
         match Spacing::new([10.0, 20.0], &scale, &[seed(0.0), seed(-1.0)]) {
             Err(TraceError::BadScale {
                 index: 1, value, ..

@@ -1,16 +1,23 @@
 //! What keeps a line that is being traced apart from the others and itself.
 
-use super::chords::{Chord, Chords, Own};
+use super::chords::Chords;
+use super::near::{Chord, Own, Vicinity};
 use super::spacing::Spacing;
 use crate::streamline::Streamline;
 use crate::trace::Stop;
 use crate::vector::{cross, dot, norm, Point};
 
 /// Length of a chord in separations, at most.
-const CHORD: f64 = 0.25;
+const CHORD: f64 = 0.4;
 /// How far beyond d_test a look reaches, in separations: nothing can come
 /// nearer until the line has gone as far.
 const LOOK: f64 = 0.25;
+/// Chords are gathered for looks from this far around, in separations; or from
+/// d_test, if that is less: along so straight a stretch of the line its own new
+/// chords are nearer than [`OWN_GAP`], and need not be among them.
+const STRETCH: f64 = 0.5;
+/// They serve while the separation changes by less than this factor on the way.
+const SPARE: f64 = 1.05;
 /// Cosine of 10 degrees: a line that has turned by more looks again.
 const TURNED: f64 = 0.985;
 /// Own chords nearer along the line than this many times d_test are
@@ -38,6 +45,9 @@ pub(super) struct Watch<'a> {
     free: f64,
     moved: f64,
     looked: Point,
+    /// The chords near the last looks, for looks that reach as far as `reach`.
+    vicinity: Vicinity,
+    reach: f64,
 }
 
 impl<'a> Watch<'a> {
@@ -63,18 +73,14 @@ impl<'a> Watch<'a> {
             free: 0.0,
             moved: 0.0,
             looked: Point::zero(),
+            vicinity: Vicinity::default(),
+            reach: 0.0,
         }
     }
 
     /// The line goes on from `a` to `b`: may it?
     pub(super) fn step(&mut self, sign: f64, a: Point, b: Point) -> Option<Stop> {
-        if sign != self.sign {
-            self.forward = Some((self.from, self.from_arc));
-            self.sign = sign;
-            (self.arc, self.from, self.from_arc) = (0.0, a, 0.0);
-            (self.free, self.moved) = (0.0, 0.0);
-            self.from_way = Point::zero();
-        }
+        self.turn_to(sign, a);
         let length = norm(b - a);
         if length == 0.0 {
             return None;
@@ -93,21 +99,43 @@ impl<'a> Watch<'a> {
         None
     }
 
+    /// Where the backward half begins, at the seed.
+    fn turn_to(&mut self, sign: f64, seed: Point) {
+        if sign != self.sign {
+            self.forward = Some((self.from, self.from_arc));
+            self.sign = sign;
+            (self.arc, self.from, self.from_arc) = (0.0, seed, 0.0);
+            (self.free, self.moved, self.reach) = (0.0, 0.0, 0.0);
+            self.from_way = Point::zero();
+        }
+    }
+
     fn look(&mut self, b: Point, way: Point, arc: f64, test: f64, wide: f64) -> Option<Stop> {
-        let own = Some(Own {
+        let own = Own {
             line: self.line,
             arc: self.sign * arc,
             gap: OWN_GAP * test,
-        });
+        };
         let reach = test + LOOK * wide;
         (self.free, self.moved, self.looked) = (reach, 0.0, way);
-        let near = self.chords.nearest(b, way, reach, own, true)?;
+        let same = reach <= self.reach && reach * (SPARE * SPARE) >= self.reach;
+        if !same || !self.vicinity.serves(b, way) {
+            self.reach = SPARE * reach;
+            let radius = test.min(STRETCH * wide);
+            let least = Own {
+                gap: own.gap / SPARE,
+                ..own
+            };
+            self.chords
+                .gather(b, way, least, (self.reach, radius), &mut self.vicinity);
+        }
+        let near = self.vicinity.nearest(b, way, reach, own, true)?;
         self.free = near.distance;
         if near.distance >= test {
             return None;
         }
         // It may be one that turns too much to count, and hide one that does.
-        let near = self.chords.nearest(b, way, test, own, false)?;
+        let near = self.vicinity.nearest(b, way, test, own, false)?;
         Some(if near.own {
             Stop::SelfApproach
         } else {
@@ -135,6 +163,31 @@ impl<'a> Watch<'a> {
         if let Some(chord) = Chord::new(a, b, self.line, self.family, arc) {
             self.chords.push(chord);
         }
+    }
+
+    /// Lays the chords of a whole line, of which no step was watched.
+    pub(super) fn relay(mut self, line: &Streamline) {
+        let seed = line.points.iter().position(|&p| p == line.seed);
+        let (behind, ahead) = line.points.split_at(seed.unwrap_or(0));
+        for (sign, half) in [(1.0, ahead), (-1.0, behind)] {
+            let mut last = line.seed;
+            let mut lay = |to: Point| {
+                self.turn_to(sign, last);
+                let length = norm(to - last);
+                if length > 0.0 {
+                    let separation = self.spacing.at(to, self.family);
+                    self.lay(last, length, (to - last) / length, separation);
+                    self.arc += length;
+                }
+                last = to;
+            };
+            if sign > 0.0 {
+                half.iter().for_each(|&p| lay(p));
+            } else {
+                half.iter().rev().for_each(|&p| lay(p));
+            }
+        }
+        self.finish(line);
     }
 
     /// Lays the last chords, out to the ends of the finished line.

@@ -25,8 +25,8 @@ pub enum Stop {
     LengthLimit,
     /// The field has no direction from here on, though the domain goes on.
     FieldEnd,
-    /// It would have come too near to another line that runs alongside: only
-    /// of lines made by [`place`](crate::place).
+    /// It would have come too near to another line that runs alongside, or made
+    /// way for two: only of lines made by [`place`](crate::place).
     Neighbour,
     /// It ends on another line, at a point of that line: only of lines made by
     /// [`place`](crate::place).

@@ -82,7 +82,7 @@ impl Head {
     /// Turns the head to the chord towards `to`, without moving it.
     pub(crate) fn look(&mut self, to: Point) {
         let chord = to - self.last;
-        if norm(chord) > 0.0 {
+        if chord != Point::zero() {
             self.angle += small_turn(self.direction, chord);
             self.direction = chord;
         }
@@ -139,17 +139,13 @@ impl Track {
     /// and moves the head there; true if the new piece runs alongside an older
     /// one.
     pub(crate) fn advance(&mut self, head: &mut Head, to: Point) -> bool {
-        let length = norm(to - head.last);
-        let arc = (head.arc, head.arc + head.sign * length);
-        let piece = Piece {
-            from: head.last,
-            to,
-            arc,
-        };
-        (head.last, head.arc) = (to, arc.1);
+        let from = std::mem::replace(&mut head.last, to);
         if self.reach == 0.0 {
             return false;
         }
+        let arc = (head.arc, head.arc + head.sign * norm(to - from));
+        let piece = Piece { from, to, arc };
+        head.arc = arc.1;
         self.span = (self.span.0.min(head.angle), self.span.1.max(head.angle));
         let near = if self.span.1 - self.span.0 > SPAN {
             self.index();
