@@ -5,6 +5,7 @@
 )]
 
 mod candidates;
+mod criteria;
 mod error;
 mod field;
 mod placement;
@@ -20,6 +21,10 @@ mod vector;
 pub use geo_types;
 
 pub use candidates::{candidates, survey, CandidateOptions, Discarded, Seed, Survey, Unfit};
+pub use criteria::{
+    compare_criteria, criteria, Criteria, CriteriaComparison, CriteriaOptions, CriteriaTotals,
+    Criterion, LineCriteria, SegmentCriteria, Spread, TileCriteria, Total, TurnRule,
+};
 pub use error::TraceError;
 pub use field::{
     arm_nearest, from_fn, Cursor, DirectionField, Exit, FromFn, MeshError, TriangleField,
