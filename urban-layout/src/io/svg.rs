@@ -12,7 +12,9 @@ mod field;
 mod font;
 mod map;
 mod palette;
+mod picture;
 mod sheet;
+mod streamlines;
 
 use geo_types::Coord;
 
@@ -22,6 +24,7 @@ use crate::site::Site;
 
 use canvas::{escaped, Canvas, Transform};
 pub use field::field_svg;
+pub use streamlines::{streamlines_svg, Paint, StreamlineSvgOptions};
 
 /// How a plan is drawn.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,14 +5,14 @@ use geo_types::{Coord, Polygon};
 use streamline::{candidates, CandidateOptions, Seed, TraceOptions};
 
 use super::canvas::{Canvas, PathData, Transform};
+use super::picture::Picture;
 use crate::adapt::Arms;
 use crate::field::FieldStudy;
+use crate::plane::extent;
 use crate::site::Site;
 
 /// Longer side of the picture, sheet units (200 mm).
 const LONG_SIDE: f64 = 20_000.0;
-/// Around the site, sheet units.
-const MARGIN: f64 = 500.0;
 /// Cells of the divergence map along the longer side.
 const CELLS: f64 = 160.0;
 /// Streamlines side by side along the longer side.
@@ -34,77 +34,19 @@ const CLASSES: [(f64, &str); 5] = [
 /// where five do, larger for larger indices.
 #[must_use]
 pub fn field_svg(study: &FieldStudy, site: &Site) -> String {
-    let corners: Vec<Coord<f64>> = site
-        .parts
-        .iter()
-        .flat_map(|part| part.exterior().0.iter().copied())
-        .collect();
-    let fold = |pick: fn(Coord<f64>) -> f64, best: fn(f64, f64) -> f64, from: f64| {
-        corners.iter().map(|&c| pick(c)).fold(from, best)
-    };
-    let low = Coord {
-        x: fold(|c| c.x, f64::min, f64::INFINITY),
-        y: fold(|c| c.y, f64::min, f64::INFINITY),
-    };
-    let high = Coord {
-        x: fold(|c| c.x, f64::max, f64::NEG_INFINITY),
-        y: fold(|c| c.y, f64::max, f64::NEG_INFINITY),
-    };
-    let size = (high.x - low.x).max(high.y - low.y);
-    let scale = (LONG_SIDE - 2.0 * MARGIN) / size;
-    let to = Transform {
-        scale,
-        centre: Coord {
-            x: low.x,
-            y: high.y,
-        },
-        at: Coord {
-            x: MARGIN,
-            y: MARGIN,
-        },
-    };
-    let width = (high.x - low.x) * scale + 2.0 * MARGIN;
-    let height = (high.y - low.y) * scale + 2.0 * MARGIN;
-    let mut canvas = Canvas::default();
-    canvas.raw(&format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.1}mm\" height=\"{:.1}mm\" viewBox=\"0 0 {width:.0} {height:.0}\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
-        width / super::UNITS,
-        height / super::UNITS,
-    ));
-    let mut outline = PathData::default();
-    for part in &site.parts {
-        outline.polygon(part, &to);
-    }
-    canvas.raw(&format!(
-        "<clipPath id=\"land\"><path clip-rule=\"evenodd\" d=\"{}\"/></clipPath>\n<g clip-path=\"url(#land)\">\n",
-        outline.0
-    ));
+    let mut picture = Picture::new(site, LONG_SIDE, 0.0);
+    let (size, to) = (picture.size, picture.to);
+    picture.clip();
     for (part, field) in site.parts.iter().zip(&study.fields) {
-        shade(&mut canvas, part, field, size / CELLS, &to);
+        shade(&mut picture.canvas, part, field, size / CELLS, &to);
     }
-    canvas.raw("</g>\n");
+    picture.canvas.raw("</g>\n");
     for (part, field) in site.parts.iter().zip(&study.fields) {
-        streamlines(&mut canvas, part, field, size / LINES, &to);
+        streamlines(&mut picture.canvas, part, field, size / LINES, &to);
     }
-    canvas.path(
-        &outline.0,
-        "fill=\"none\" stroke=\"#212529\" stroke-width=\"60\" stroke-linejoin=\"round\"",
-    );
-    for singularity in study.singularities() {
-        let at = to.place(singularity.at);
-        let colour = if singularity.quarter_index > 0 {
-            "#d9480f"
-        } else {
-            "#1864ab"
-        };
-        let radius = 110.0 + 40.0 * f64::from(singularity.quarter_index.abs() - 1);
-        canvas.raw(&format!(
-            "<circle cx=\"{:.0}\" cy=\"{:.0}\" r=\"{radius:.0}\" fill=\"{colour}\" stroke=\"#fff\" stroke-width=\"30\"/>\n",
-            at.x, at.y
-        ));
-    }
-    canvas.raw("</svg>\n");
-    canvas.0
+    picture.outline();
+    picture.singularities(&study.singularities());
+    picture.finish()
 }
 
 /// Rows of cells of one colour, one path a colour.
@@ -200,21 +142,4 @@ fn streamlines(canvas: &mut Canvas, part: &Polygon<f64>, field: &Field, gap: f64
         &path.0,
         "fill=\"none\" stroke=\"#495057\" stroke-width=\"18\"",
     );
-}
-
-fn extent(part: &Polygon<f64>) -> (Coord<f64>, Coord<f64>) {
-    let points = &part.exterior().0;
-    let first = points.first().copied().unwrap_or_default();
-    points.iter().fold((first, first), |(low, high), p| {
-        (
-            Coord {
-                x: low.x.min(p.x),
-                y: low.y.min(p.y),
-            },
-            Coord {
-                x: high.x.max(p.x),
-                y: high.y.max(p.y),
-            },
-        )
-    })
 }
