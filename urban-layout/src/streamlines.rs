@@ -3,6 +3,7 @@
 
 use std::time::Instant;
 
+use crossfield::Field;
 use geo_types::{Polygon, Rect};
 use serde_json::{json, Value};
 use streamline::{
@@ -186,18 +187,8 @@ impl StreamlineStudy {
                 ..TileOptions::default()
             };
             let tiling = tiles(part, &strings, &cut).map_err(reported)?;
-            let singular: Vec<Singularity> = design
-                .singularities()
-                .iter()
-                .map(|s| Singularity {
-                    at: s.at,
-                    quarters: s.quarter_index,
-                })
-                .collect();
-            let field = Arms(design);
-            let judged = criteria(&field, part, &lines, &tiling, &singular, &options.criteria);
             parts.push(PartStreamlines {
-                criteria: judged.map_err(reported)?,
+                criteria: judge(part, design, &lines, &tiling, &options.criteria)?,
                 lines,
                 tiling,
             });
@@ -211,6 +202,26 @@ impl StreamlineStudy {
             criteria_seconds: start.elapsed().as_secs_f64(),
             options: options.clone(),
         })
+    }
+
+    /// Judges the same lines and tiles with other options, such as another
+    /// detect region or a limit of reach.
+    ///
+    /// # Errors
+    ///
+    /// Errors of usage for options out of their range, and for another site
+    /// than that of the study.
+    pub fn judged(&self, site: &Site, options: &CriteriaOptions) -> Result<Criteria> {
+        if site.parts.len() != self.parts.len() {
+            return Err(Error::usage(
+                "the site is not that of the study; give the same one",
+            ));
+        }
+        let parts = site.parts.iter().zip(&self.field.fields).zip(&self.parts);
+        let judged = parts
+            .map(|((part, design), of)| judge(part, design, &of.lines, &of.tiling, options))
+            .collect::<Result<Vec<_>>>()?;
+        Ok(Criteria::joined(judged, options))
     }
 
     /// The figures of `criteria.json`: the six, each 0 at best, and behind
@@ -303,6 +314,25 @@ fn lines(
     let (low, high) = extent(part);
     let seeds = lattice(field, Rect::new(low, high), options.separation[0] / 2.0)?;
     place(field, &seeds, options)
+}
+
+/// The criteria of one part.
+fn judge(
+    part: &Polygon<f64>,
+    design: &Field,
+    lines: &[Streamline],
+    tiling: &Tiling,
+    options: &CriteriaOptions,
+) -> Result<Criteria> {
+    let singular: Vec<Singularity> = design
+        .singularities()
+        .iter()
+        .map(|s| Singularity {
+            at: s.at,
+            quarters: s.quarter_index,
+        })
+        .collect();
+    criteria(&Arms(design), part, lines, tiling, &singular, options).map_err(reported)
 }
 
 /// The error of a tracer as one of ours.

@@ -122,7 +122,7 @@ const HEADINGS: [&str; 10] = [
     "turns 1/km",
     "off parallel deg",
     "off perpend. deg",
-    "1 - convexity",
+    "convexity",
     "spread",
     "singular",
     "per km2",

@@ -92,6 +92,14 @@ impl Picture {
         ));
     }
 
+    /// Fills the site.
+    pub(super) fn land(&mut self, colour: &str) {
+        self.canvas.path(
+            &self.outline,
+            &format!("fill=\"{colour}\" fill-rule=\"evenodd\""),
+        );
+    }
+
     /// Draws the boundary.
     pub(super) fn outline(&mut self) {
         self.canvas.path(

@@ -6,6 +6,7 @@ use streamline::{CriteriaTotals, Criterion, LineCriteria, SegmentCriteria, Strea
 use super::canvas::{Anchor, Canvas, Lettering, PathData};
 use super::font;
 use super::picture::Picture;
+use crate::layout::plane::rings;
 use crate::plane::simplify;
 use crate::site::Site;
 use crate::streamlines::{PartStreamlines, StreamlineStudy};
@@ -22,7 +23,7 @@ pub enum Paint {
 }
 
 /// How streamlines are drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct StreamlineSvgOptions {
     /// What the colours say. Default: the families.
     pub paint: Paint,
@@ -34,6 +35,9 @@ pub struct StreamlineSvgOptions {
     pub tolerance_mm: f64,
     /// Whether a legend stands below. Default true.
     pub legend: bool,
+    /// What the legend begins with, such as the name of the field. Default
+    /// nothing.
+    pub title: Option<String>,
 }
 
 impl Default for StreamlineSvgOptions {
@@ -43,6 +47,7 @@ impl Default for StreamlineSvgOptions {
             long_side_mm: 200.0,
             tolerance_mm: 0.1,
             legend: true,
+            title: None,
         }
     }
 }
@@ -130,7 +135,7 @@ pub fn streamlines_svg(
     match options.paint {
         Paint::Families => families(&mut picture, study, tolerance),
         Paint::Criterion(Criterion::Convexity) => {
-            tiles(&mut picture, study);
+            tiles(&mut picture, study, tolerance);
             plain(&mut picture, study, tolerance, "#fff");
         }
         Paint::Criterion(Criterion::Singularities) => {
@@ -147,7 +152,7 @@ pub fn streamlines_svg(
         picture.singularities(&found);
     }
     if options.legend {
-        legend(&mut picture, &study.criteria.totals, options.paint);
+        legend(&mut picture, &study.criteria.totals, options);
     }
     picture.finish()
 }
@@ -242,15 +247,24 @@ fn segments(picture: &mut Picture, study: &StreamlineStudy, criterion: Criterion
     }
 }
 
-fn tiles(picture: &mut Picture, study: &StreamlineStudy) {
+/// All land in the best colour, and the other tiles on top: most are convex.
+fn tiles(picture: &mut Picture, study: &StreamlineStudy, tolerance: f64) {
     let scale = scale(Criterion::Convexity);
     let mut paths: Vec<PathData> = COLOURS.iter().map(|_| PathData::default()).collect();
     for part in &study.parts {
         for (tile, judged) in part.criteria.tiles.iter().enumerate() {
-            let path = &mut paths[scale.class(judged.convexity)];
-            path.polygon(&part.tiling.polygon(tile), &picture.to);
+            let class = scale.class(judged.convexity);
+            if class == 0 {
+                continue;
+            }
+            for ring in rings(&part.tiling.polygon(tile)) {
+                let points = simplify(&ring.0, tolerance);
+                let open = points[..points.len() - 1].iter();
+                paths[class].line(open.map(|&c| picture.to.place(c)), true);
+            }
         }
     }
+    picture.land(COLOURS[0]);
     for (path, colour) in paths.iter().zip(COLOURS) {
         let style = format!("fill=\"{colour}\" fill-rule=\"evenodd\"");
         picture.canvas.path(&path.0, &style);
@@ -258,21 +272,21 @@ fn tiles(picture: &mut Picture, study: &StreamlineStudy) {
 }
 
 /// The criterion's name, its figure, and what the colours mean.
-fn legend(picture: &mut Picture, totals: &CriteriaTotals, paint: Paint) {
+fn legend(picture: &mut Picture, totals: &CriteriaTotals, options: &StreamlineSvgOptions) {
     let grain = picture.grain;
     let (left, room) = (500.0 * grain, picture.width - 1000.0 * grain);
     let top = picture.height + 250.0 * grain;
-    let (title, entries, unit) = match paint {
+    let (headline, entries, unit) = match options.paint {
         Paint::Families => {
-            let title = format!(
-                "{} streamlines, {:.1} km; {} tiles; {} singularities",
+            let headline = format!(
+                "{} streamlines, {:.1} km; {} tiles; {}",
                 totals.lines,
                 totals.length / 1e3,
                 totals.tiles,
-                totals.singularities
+                singularities(totals)
             );
             let entries = FAMILIES.map(|(colour, word)| (colour, word.to_owned()));
-            (title, entries.to_vec(), "")
+            (headline, entries.to_vec(), "")
         }
         Paint::Criterion(criterion) => {
             let scale = scale(criterion);
@@ -284,9 +298,13 @@ fn legend(picture: &mut Picture, totals: &CriteriaTotals, paint: Paint) {
                 }
                 entries.push((COLOURS[5], format!("from {}", scale.words[4])));
             }
-            (headline(criterion, totals), entries, scale.unit)
+            (words(criterion, totals), entries, scale.unit)
         }
     };
+    let title = options
+        .title
+        .as_ref()
+        .map_or_else(|| headline.clone(), |title| format!("{title}: {headline}"));
     // A long line of text shrinks to fit.
     let cap = (260.0 * grain).min(room / font::width(&title, 1.0));
     let text = |canvas: &mut Canvas, words: &str, x: f64, y: f64, cap: f64| {
@@ -323,7 +341,16 @@ fn legend(picture: &mut Picture, totals: &CriteriaTotals, paint: Paint) {
     picture.canvas.raw("</g>\n");
 }
 
-fn headline(criterion: Criterion, totals: &CriteriaTotals) -> String {
+/// Their number in words.
+fn singularities(totals: &CriteriaTotals) -> String {
+    match totals.singularities {
+        1 => "1 singularity".to_owned(),
+        n => format!("{n} singularities"),
+    }
+}
+
+/// A criterion's figure in words.
+fn words(criterion: Criterion, totals: &CriteriaTotals) -> String {
     let value = criterion.of(totals);
     if !criterion.is_measured(totals) {
         return format!("{}: nothing to measure", criterion.name());
@@ -348,11 +375,9 @@ fn headline(criterion: Criterion, totals: &CriteriaTotals) -> String {
             "tile convexity: mean {value:.4}, spread {:.4}",
             totals.convexity.deviation
         ),
-        Criterion::Singularities => format!(
-            "{} singularities, {:.2} per km\u{b2}",
-            totals.singularities,
-            value * 1e6
-        ),
+        Criterion::Singularities => {
+            format!("{}, {:.2} per km\u{b2}", singularities(totals), value * 1e6)
+        }
     }
 }
 
