@@ -92,6 +92,15 @@ pub enum TraceError {
         "the domain has no area: give a polygon with at least three vertices that are not in line"
     )]
     DomainWithoutArea,
+    /// A tiling given to [`criteria`](crate::criteria) was not made of the
+    /// lines given with it, or was changed since.
+    #[error("{what} {index} of the tiling refers to what is not there: give the tiling that `tiles` makes of exactly these lines")]
+    BadTiling {
+        /// `vertex`, `edge` or `tile`.
+        what: &'static str,
+        /// Its position in the tiling.
+        index: usize,
+    },
     /// The scale of the separation is no positive number at a seed.
     #[error("the scale of the separation is {value} at seed {index}, ({x}, {y}): it must be positive and finite")]
     BadScale {

@@ -5,6 +5,7 @@
 )]
 
 mod candidates;
+mod criteria;
 mod error;
 mod field;
 mod placement;
@@ -21,6 +22,10 @@ pub use geo_types;
 
 pub use candidates::{
     candidates, candidates_by, survey, survey_by, CandidateOptions, Discarded, Seed, Survey, Unfit,
+};
+pub use criteria::{
+    compare_criteria, criteria, Criteria, CriteriaComparison, CriteriaOptions, CriteriaTotals,
+    Criterion, LineCriteria, SegmentCriteria, Spread, TileCriteria, Total, TurnRule,
 };
 pub use error::TraceError;
 pub use field::{

@@ -34,6 +34,7 @@ pub struct Streamline {
 
 /// One of the equal pieces of a line, see [`Streamline::samples`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sample {
     /// The middle of the piece, on the polyline.
     pub at: Coord<f64>,

@@ -55,7 +55,7 @@ pub struct FieldStudy {
     pub mesh_seconds: f64,
     /// Seconds that the design took.
     pub field_seconds: f64,
-    options: FieldOptions,
+    pub(crate) options: FieldOptions,
 }
 
 /// Most vertices of a mesh: some 3 GB.

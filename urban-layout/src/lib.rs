@@ -41,6 +41,7 @@ pub mod region;
 mod segments;
 pub mod site;
 pub mod splitter;
+pub mod streamlines;
 
 pub use error::{Error, Result};
 pub use geo_types;

@@ -1,7 +1,7 @@
 //! Plane geometry on `Coord`: the few vector and polyline operations that the
 //! planner's rooms share.
 
-use geo_types::Coord;
+use geo_types::{Coord, Polygon};
 
 /// A point from its two coordinates, metres.
 pub(crate) const fn at(x: f64, y: f64) -> Coord<f64> {
@@ -106,6 +106,19 @@ pub(crate) fn in_ring(ring: &[Coord<f64>], p: Coord<f64>) -> bool {
         }
     }
     inside
+}
+
+/// The corners of the least box around a polygon, low ones first; the origin
+/// twice if it has no points.
+pub(crate) fn extent(polygon: &Polygon<f64>) -> (Coord<f64>, Coord<f64>) {
+    let points = &polygon.exterior().0;
+    let first = points.first().copied().unwrap_or_default();
+    points.iter().fold((first, first), |(low, high), p| {
+        (
+            at(low.x.min(p.x), low.y.min(p.y)),
+            at(high.x.max(p.x), high.y.max(p.y)),
+        )
+    })
 }
 
 pub(crate) fn length(line: &[Coord<f64>]) -> f64 {

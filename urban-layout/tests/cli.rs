@@ -2,99 +2,10 @@
 //! all, figures as JSON.
 #![cfg(feature = "cli")]
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+mod bench;
 
+use bench::{files, json, names, Bench, BOW_TIE, FIELD, TRIANGLE};
 use serde_json::Value;
-use tempfile::TempDir;
-
-/// A field of 3.6 hectares: a plan of it takes a moment.
-const FIELD: &str = r#"{"type": "FeatureCollection", "coordinate_units": "metres", "features": [
-{"type": "Feature", "properties": {"kind": "site", "name": "Field"}, "geometry":
-{"type": "Polygon", "coordinates": [[[0, 0], [240, 0], [240, 150], [0, 150], [0, 0]]]}}]}"#;
-
-/// A ring that crosses itself.
-const BOW_TIE: &str = r#"{"type": "FeatureCollection", "coordinate_units": "metres", "features": [
-{"type": "Feature", "properties": {"kind": "site"}, "geometry":
-{"type": "Polygon", "coordinates": [[[0, 0], [240, 150], [240, 0], [0, 150], [0, 0]]]}}]}"#;
-
-/// A folder of one's own with a site in it.
-struct Bench {
-    folder: TempDir,
-}
-
-impl Bench {
-    fn new() -> Self {
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        let bench = Self { folder };
-        std::fs::write(bench.path("site.geojson"), FIELD).expect("written");
-        bench
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    /// Runs the command in the folder.
-    fn run(&self, words: &[&str]) -> Output {
-        Command::new(env!("CARGO_BIN_EXE_urban-layout"))
-            .current_dir(self.folder.path())
-            .args(words)
-            .output()
-            .expect("the command starts")
-    }
-
-    /// Runs the command, expecting an exit status; gives its standard output.
-    #[track_caller]
-    fn expect(&self, status: i32, words: &[&str]) -> String {
-        let output = self.run(words);
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(status), "{words:?}: {said}");
-        String::from_utf8(output.stdout).expect("UTF-8")
-    }
-
-    /// The one line on standard error of a run that ends with this status.
-    #[track_caller]
-    fn complaint(&self, status: i32, words: &[&str]) -> String {
-        let output = self.run(words);
-        let said = String::from_utf8(output.stderr).expect("UTF-8");
-        assert_eq!(output.status.code(), Some(status), "{words:?}: {said}");
-        assert!(output.stdout.is_empty(), "nothing goes to stdout");
-        assert_eq!(said.lines().count(), 1, "one line: {said}");
-        said
-    }
-}
-
-/// Every file below a folder with its bytes, sorted.
-fn files(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
-    let mut out = Vec::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(&folder).expect("a folder") {
-            let path = entry.expect("readable").path();
-            if path.is_dir() {
-                folders.push(path);
-            } else {
-                let bytes = std::fs::read(&path).expect("readable");
-                out.push((path, bytes));
-            }
-        }
-    }
-    out.sort();
-    out
-}
-
-fn names(folder: &Path) -> Vec<String> {
-    let name = |(path, _): &(PathBuf, Vec<u8>)| {
-        let below = path.strip_prefix(folder).expect("below the folder");
-        below.to_string_lossy().replace('\\', "/")
-    };
-    files(folder).iter().map(name).collect()
-}
-
-fn json(text: &str) -> Value {
-    serde_json::from_str(text).unwrap_or_else(|e| panic!("{e}: {text}"))
-}
 
 #[test]
 fn a_plan_is_written_and_certified() {
@@ -269,11 +180,6 @@ fn wrong_usage_is_status_2() {
     bench.expect(2, &["check", "site.geojson"]);
     assert!(!bench.path("plan").exists(), "nothing may be written");
 }
-
-/// A site of three straight sides: no H-field follows them.
-const TRIANGLE: &str = r#"{"type": "FeatureCollection", "coordinate_units": "metres", "features": [
-{"type": "Feature", "properties": {"kind": "site"}, "geometry":
-{"type": "Polygon", "coordinates": [[[0, 0], [420, 20], [150, 330], [0, 0]]]}}]}"#;
 
 /// Its D-field takes the place of the H-field, in every region that is still a
 /// triangle.
@@ -456,6 +362,7 @@ fn help_and_version_are_no_errors() {
         &["generate", "--help"],
         &["check", "--help"],
         &["field", "--help"],
+        &["streamlines", "--help"],
     ] {
         assert!(bench.expect(0, words).contains("Usage"), "{words:?}");
     }

@@ -2,7 +2,7 @@
 
 use super::Score;
 use crate::field::{Cursor, DirectionField};
-use crate::streamline::Streamline;
+use crate::streamline::{Sample, Streamline};
 
 /// DIV(s) of the paper (equation 2): the divergence of the field integrated
 /// along the line, times length^-p. In m^-p.
@@ -44,11 +44,10 @@ impl Divergence {
     /// dimensionless, signed or absolute as the options say. Samples without a
     /// divergence take the mean of the others.
     pub fn integral(&self, line: &Streamline, field: &dyn DirectionField) -> f64 {
-        let mut cursor = Cursor::default();
         let (mut sum, mut known, mut total) = (0.0, 0.0, 0.0);
-        for sample in line.samples(self.step) {
+        for (sample, divergence) in divergence_along(line, field, self.step) {
             total += sample.length;
-            if let Some(divergence) = field.divergence(sample.at, sample.tangent, &mut cursor) {
+            if let Some(divergence) = divergence {
                 sum += sample.length
                     * if self.signed {
                         divergence
@@ -64,6 +63,19 @@ impl Divergence {
             0.0
         }
     }
+}
+
+/// The equal pieces of a line, each with the signed divergence at its middle.
+pub(crate) fn divergence_along<'a>(
+    line: &Streamline,
+    field: &'a dyn DirectionField,
+    step: f64,
+) -> impl Iterator<Item = (Sample, Option<f64>)> + use<'a> {
+    let mut cursor = Cursor::default();
+    line.samples(step).into_iter().map(move |sample| {
+        let divergence = field.divergence(sample.at, sample.tangent, &mut cursor);
+        (sample, divergence)
+    })
 }
 
 impl Score for Divergence {

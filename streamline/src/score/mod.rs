@@ -12,6 +12,7 @@ mod width;
 pub use boundary::{BoundaryDistance, BoundaryMeasure, BoundaryOptions};
 pub use continuity::Continuity;
 pub use distinct::distinct;
+pub(crate) use divergence::divergence_along;
 pub use divergence::Divergence;
 pub use rank::{choose, rank, Ranked};
 pub use singularity::SingularityDistance;

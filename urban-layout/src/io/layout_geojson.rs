@@ -6,16 +6,12 @@ use std::fmt::Write as _;
 
 use geo_types::{Coord, LineString, MultiPolygon, Polygon};
 
+use super::coordinates::{number, push_line, push_position};
 use super::frame::Frame;
 use crate::layout::plane::{polygon_area, rings};
 use crate::layout::{Block, Junction, Layout, Lineage, ParcelInfo, Street, Tile, TileKind};
 
 pub use read::read_layout;
-
-/// Decimals of a coordinate in degrees: 1e-10 degrees are 0.01 mm.
-const DEGREE_DECIMALS: usize = 10;
-/// Decimals of a coordinate in metres.
-const METRE_DECIMALS: usize = 6;
 
 /// Writes a layout as a GeoJSON FeatureCollection in the coordinates of the
 /// frame's source: longitude and latitude, or metres (then the collection says
@@ -75,25 +71,6 @@ fn free_id(layout: &Layout) -> u64 {
         .map_or(used.len() as u64, |(i, _)| i)
 }
 
-/// A number with at most so many decimals, none of them trailing zeros; `null`
-/// if it is no number.
-fn number(value: f64, decimals: usize) -> String {
-    if !value.is_finite() {
-        return "null".to_owned();
-    }
-    let text = format!("{value:.decimals$}");
-    let short = if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        &text
-    };
-    if short == "-0" {
-        "0".to_owned()
-    } else {
-        short.to_owned()
-    }
-}
-
 /// A JSON string.
 fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
@@ -140,29 +117,11 @@ impl Writer<'_> {
     }
 
     fn position(&mut self, c: Coord<f64>) {
-        let source = self.frame.to_source(c);
-        let decimals = if self.frame.is_degrees() {
-            DEGREE_DECIMALS
-        } else {
-            METRE_DECIMALS
-        };
-        let _ = write!(
-            self.text,
-            "[{},{}]",
-            number(source.x, decimals),
-            number(source.y, decimals)
-        );
+        push_position(&mut self.text, self.frame, c);
     }
 
     fn line(&mut self, line: &LineString<f64>) {
-        self.text.push('[');
-        for (i, c) in line.0.iter().enumerate() {
-            if i > 0 {
-                self.text.push(',');
-            }
-            self.position(*c);
-        }
-        self.text.push(']');
+        push_line(&mut self.text, self.frame, line);
     }
 
     fn polygon(&mut self, polygon: &Polygon<f64>) {
@@ -312,15 +271,6 @@ impl Writer<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_are_short() {
-        assert_eq!(number(100.0, 2), "100");
-        assert_eq!(number(-0.000_000_000_01, 10), "0");
-        assert_eq!(number(26.925, 10), "26.925");
-        assert_eq!(number(1500.0, 0), "1500");
-        assert_eq!(number(f64::INFINITY, 2), "null");
-    }
 
     #[test]
     fn the_site_takes_the_least_free_id() {

@@ -5,11 +5,13 @@
 //! [`Site::read`](crate::site::Site::read); [`frame`] leads between the file's coordinates and
 //! the local metres in which all else works.
 
+mod coordinates;
 pub mod frame;
 pub(crate) mod geojson;
 pub mod html;
 pub mod layout_geojson;
 #[cfg(feature = "png")]
 pub mod png;
+pub mod streamlines_geojson;
 pub mod svg;
 pub mod write;

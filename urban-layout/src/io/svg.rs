@@ -14,7 +14,9 @@ mod field_sheet;
 mod font;
 mod map;
 mod palette;
+mod picture;
 mod sheet;
+mod streamlines;
 
 use geo_types::Coord;
 
@@ -25,6 +27,7 @@ use crate::site::Site;
 use canvas::{escaped, Canvas, Transform};
 pub use field::field_svg;
 pub use field_sheet::{field_sheet_svg, FieldPanel};
+pub use streamlines::{streamlines_svg, Paint, StreamlineSvgOptions};
 
 /// How a plan is drawn.
 #[derive(Clone, Debug, PartialEq)]

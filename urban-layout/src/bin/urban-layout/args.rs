@@ -3,8 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use streamline::{CriteriaOptions, Criterion, Ends};
 use urban_layout::field::FieldOptions;
+use urban_layout::io::svg::Paint;
 use urban_layout::site::Units;
+use urban_layout::streamlines::StreamlineOptions;
 use urban_layout::{Error, FieldKind, PlanOptions, Result, Site};
 
 /// Neighbourhood plans from a site boundary.
@@ -23,6 +26,8 @@ pub(crate) enum Verb {
     Check(Check),
     /// Design a cross field on a site: writes field.svg and field.json.
     Field(FieldJob),
+    /// Place evenly spaced streamlines and judge them: writes streamlines.svg, streamlines.geojson and criteria.json.
+    Streamlines(StreamlineJob),
 }
 
 #[derive(Debug, Args)]
@@ -89,6 +94,49 @@ pub(crate) struct FieldJob {
     /// Folder for the results; made if it is not there.
     #[arg(long)]
     pub(crate) out: PathBuf,
+    #[command(flatten)]
+    pub(crate) design: Design,
+    #[command(flatten)]
+    pub(crate) common: Common,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct StreamlineJob {
+    /// The site, a GeoJSON file.
+    pub(crate) site: PathBuf,
+    /// Folder for the results; made if it is not there.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// Distance between neighbouring lines of either family, metres.
+    #[arg(long, default_value_t = StreamlineOptions::default().separation, value_name = "M")]
+    pub(crate) separation: f64,
+    /// How near a line may come to one beside it, metres; 0.87 of the separation if not given.
+    #[arg(long, value_name = "M")]
+    pub(crate) test: Option<f64>,
+    /// What becomes of ends that come near other lines.
+    #[arg(long, value_enum, default_value_t = EndWord::Open)]
+    pub(crate) ends: EndWord,
+    /// Within what length a change of direction is a turn, metres.
+    #[arg(long, default_value_t = CriteriaOptions::default().region, value_name = "M")]
+    pub(crate) turn_region: f64,
+    /// By how much the direction must change for a turn, degrees.
+    #[arg(long, default_value_t = CriteriaOptions::default().angle_deg, value_name = "DEG")]
+    pub(crate) turn_angle: f64,
+    /// What the colours of the picture say.
+    #[arg(long, value_enum, default_value_t = PaintWord::Families)]
+    pub(crate) paint: PaintWord,
+    /// Also draw streamlines.png.
+    #[arg(long)]
+    pub(crate) png: bool,
+    #[command(flatten)]
+    pub(crate) design: Design,
+    #[command(flatten)]
+    pub(crate) common: Common,
+}
+
+/// How a field is designed.
+#[derive(Debug, Args)]
+pub(crate) struct Design {
     /// The design.
     #[arg(long, value_enum, default_value_t = Field::Distance)]
     pub(crate) field: Field,
@@ -104,8 +152,6 @@ pub(crate) struct FieldJob {
     /// Seed of all random choices.
     #[arg(long, default_value_t = 0)]
     pub(crate) seed: u64,
-    #[command(flatten)]
-    pub(crate) common: Common,
 }
 
 #[derive(Debug, Args)]
@@ -131,6 +177,48 @@ pub(crate) enum UnitWord {
     Auto,
     Metres,
     Degrees,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum EndWord {
+    /// They stay in the open.
+    Open,
+    /// They are cut back to T-junctions.
+    Junction,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum PaintWord {
+    Families,
+    Divergence,
+    Continuity,
+    Parallelism,
+    Perpendicularity,
+    Convexity,
+    Singularities,
+}
+
+impl From<EndWord> for Ends {
+    fn from(word: EndWord) -> Self {
+        match word {
+            EndWord::Open => Self::Open,
+            EndWord::Junction => Self::Junction,
+        }
+    }
+}
+
+impl From<PaintWord> for Paint {
+    fn from(word: PaintWord) -> Self {
+        Self::Criterion(match word {
+            PaintWord::Families => return Self::Families,
+            PaintWord::Divergence => Criterion::Divergence,
+            PaintWord::Continuity => Criterion::Continuity,
+            PaintWord::Parallelism => Criterion::Parallelism,
+            PaintWord::Perpendicularity => Criterion::Perpendicularity,
+            PaintWord::Convexity => Criterion::Convexity,
+            PaintWord::Singularities => Criterion::Singularities,
+        })
+    }
 }
 
 impl From<Field> for FieldKind {
@@ -161,7 +249,23 @@ impl Common {
     }
 }
 
-impl FieldJob {
+impl StreamlineJob {
+    pub(crate) fn options(&self) -> StreamlineOptions {
+        StreamlineOptions {
+            field: self.design.options(),
+            separation: self.separation,
+            test: self.test,
+            ends: self.ends.into(),
+            criteria: CriteriaOptions {
+                region: self.turn_region,
+                angle_deg: self.turn_angle,
+                ..CriteriaOptions::default()
+            },
+        }
+    }
+}
+
+impl Design {
     pub(crate) fn options(&self) -> FieldOptions {
         FieldOptions {
             kind: self.field.into(),

@@ -2,19 +2,14 @@
 
 use urban_layout::field::FieldStudy;
 use urban_layout::io;
-use urban_layout::{Error, Result};
+use urban_layout::{Error, Result, Site};
 
 use crate::args::FieldJob;
 
 pub(crate) fn run(job: &FieldJob) -> Result<u8> {
     let site = job.common.read(&job.site)?;
-    for warning in &site.warnings {
-        eprintln!("warning: {warning}");
-    }
-    if !(site.roads.is_empty() && site.elements.is_empty()) {
-        eprintln!("warning: given roads and key elements are not part of the field's domain");
-    }
-    let study = FieldStudy::new(&site, &job.options())?;
+    warn(&site);
+    let study = FieldStudy::new(&site, &job.design.options())?;
     let figures = study.to_json(&site);
     let json = serde_json::to_string_pretty(&figures).map_err(|e| Error::stage("field", e))? + "\n";
     io::write::write_all_or_nothing(&[
@@ -55,4 +50,15 @@ pub(crate) fn run(job: &FieldJob) -> Result<u8> {
         println!("written to {}", job.out.display());
     }
     Ok(0)
+}
+
+/// Says on standard error what was mended in a site, and what a field over the
+/// whole of it leaves out.
+pub(crate) fn warn(site: &Site) {
+    for warning in &site.warnings {
+        eprintln!("warning: {warning}");
+    }
+    if !(site.roads.is_empty() && site.elements.is_empty()) {
+        eprintln!("warning: given roads and key elements are not part of the field's domain");
+    }
 }

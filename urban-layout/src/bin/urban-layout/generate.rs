@@ -98,12 +98,7 @@ fn files_of(
         (folder.join("metrics.json"), (json + "\n").into_bytes()),
     ];
     if job.png {
-        #[cfg(feature = "png")]
-        files.push((folder.join("layout.png"), io::png::png(&svg, 2000)?));
-        #[cfg(not(feature = "png"))]
-        return Err(urban_layout::Error::usage(
-            "--png: this build has no `png` feature; rebuild with it or convert layout.svg",
-        ));
+        files.push((folder.join("layout.png"), super::png(&svg, "layout.svg")?));
     }
     files.push((folder.join("layout.svg"), svg.into_bytes()));
     Ok(files)

@@ -5,6 +5,7 @@ mod bar;
 mod check;
 mod field;
 mod generate;
+mod streamlines;
 
 use std::process::ExitCode;
 
@@ -27,6 +28,7 @@ fn main() -> ExitCode {
         Verb::Generate(job) => generate::run(job),
         Verb::Check(job) => check::run(job),
         Verb::Field(job) => field::run(job),
+        Verb::Streamlines(job) => streamlines::run(job),
     };
     match done {
         Ok(code) => ExitCode::from(code),
@@ -35,4 +37,18 @@ fn main() -> ExitCode {
             ExitCode::from(error.exit_code())
         }
     }
+}
+
+/// A picture as PNG, for `--png`.
+#[cfg(feature = "png")]
+fn png(svg: &str, _: &str) -> urban_layout::Result<Vec<u8>> {
+    urban_layout::io::png::png(svg, 2000)
+}
+
+/// Says that there is no such picture, and which file has it as SVG.
+#[cfg(not(feature = "png"))]
+fn png(_: &str, name: &str) -> urban_layout::Result<Vec<u8>> {
+    Err(urban_layout::Error::usage(format!(
+        "--png: this build has no `png` feature; rebuild with it or convert {name}"
+    )))
 }

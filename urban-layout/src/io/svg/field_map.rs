@@ -6,7 +6,9 @@ use geo_types::{Coord, Polygon};
 use streamline::{candidates, CandidateOptions, Seed, TraceOptions};
 
 use super::canvas::{Canvas, PathData, Transform};
+use super::picture::singularities;
 use crate::adapt::Arms;
+use crate::plane::extent;
 
 /// Mean |div| from which a colour holds, 1 / metre: streamlines 20 m apart
 /// come a tenth nearer or farther within 200, 100, 50, 25 and 10 m.
@@ -93,42 +95,11 @@ impl<'a> FieldMap<'a> {
         );
     }
 
-    /// Singularities: orange where three streets meet and blue where five do,
-    /// larger by `growth` for each further quarter of their index.
+    /// The singularities of all parts.
     pub(super) fn singularities(&self, canvas: &mut Canvas, radius: f64, growth: f64) {
         let all: Vec<Singularity> = self.fields.iter().flat_map(Field::singularities).collect();
-        for singularity in all {
-            let at = self.to.place(singularity.at);
-            let colour = if singularity.quarter_index > 0 {
-                "#d9480f"
-            } else {
-                "#1864ab"
-            };
-            let radius = radius + growth * f64::from(singularity.quarter_index.abs() - 1);
-            canvas.raw(&format!(
-                "<circle cx=\"{:.0}\" cy=\"{:.0}\" r=\"{radius:.0}\" fill=\"{colour}\" stroke=\"#fff\" stroke-width=\"{:.0}\"/>\n",
-                at.x, at.y, 0.27 * radius
-            ));
-        }
+        singularities(canvas, &self.to, &all, radius, growth);
     }
-}
-
-/// Lowest and highest coordinates of all parts.
-pub(super) fn bounds(parts: &[Polygon<f64>]) -> (Coord<f64>, Coord<f64>) {
-    let mut boxes = parts.iter().map(extent);
-    let first = boxes.next().unwrap_or_default();
-    boxes.fold(first, |(low, high), (l, h)| {
-        (
-            Coord {
-                x: low.x.min(l.x),
-                y: low.y.min(l.y),
-            },
-            Coord {
-                x: high.x.max(h.x),
-                y: high.y.max(h.y),
-            },
-        )
-    })
 }
 
 /// Rows of cells of one colour, one path a colour.
@@ -231,21 +202,4 @@ fn lattice(part: &Polygon<f64>, field: &Field, gap: f64) -> Vec<(Coord<f64>, Cro
         }
     }
     crosses
-}
-
-fn extent(part: &Polygon<f64>) -> (Coord<f64>, Coord<f64>) {
-    let points = &part.exterior().0;
-    let first = points.first().copied().unwrap_or_default();
-    points.iter().fold((first, first), |(low, high), p| {
-        (
-            Coord {
-                x: low.x.min(p.x),
-                y: low.y.min(p.y),
-            },
-            Coord {
-                x: high.x.max(p.x),
-                y: high.y.max(p.y),
-            },
-        )
-    })
 }

@@ -4,7 +4,8 @@ use crossfield::Field;
 use geo_types::{Coord, LineString};
 
 use super::canvas::{Anchor, Canvas, Lettering, PathData, Transform};
-use super::field_map::{bounds, FieldMap};
+use super::field_map::FieldMap;
+use super::picture::bounds;
 use crate::site::Site;
 
 /// One field of a sheet.

@@ -1,0 +1,144 @@
+//! A site by itself on a picture: what the drawings of fields and streamlines
+//! have in common.
+
+use crossfield::Singularity;
+use geo_types::{Coord, Polygon};
+
+use super::canvas::{Canvas, PathData, Transform};
+use crate::plane::extent;
+use crate::site::Site;
+
+/// Around the site, as a share of the longer side of the picture.
+const MARGIN: f64 = 0.025;
+
+/// A picture as far as it is drawn.
+pub(super) struct Picture {
+    pub(super) canvas: Canvas,
+    pub(super) to: Transform,
+    /// The longer side of the site, metres.
+    pub(super) size: f64,
+    /// The longer side of the picture over that of a picture of 200 mm: what
+    /// strokes and signs are scaled by.
+    pub(super) grain: f64,
+    /// Sheet units of the site with its margins: what stands below is the foot.
+    pub(super) width: f64,
+    pub(super) height: f64,
+    outline: String,
+}
+
+impl Picture {
+    /// Opens a picture of so many sheet units along the longer side of the
+    /// site, and leaves room for a foot of so many more.
+    pub(super) fn new(site: &Site, long_side: f64, foot: f64) -> Self {
+        let (low, high) = bounds(&site.parts);
+        let margin = MARGIN * long_side;
+        let size = (high.x - low.x).max(high.y - low.y);
+        let scale = (long_side - 2.0 * margin) / size;
+        let to = Transform {
+            scale,
+            centre: Coord {
+                x: low.x,
+                y: high.y,
+            },
+            at: Coord {
+                x: margin,
+                y: margin,
+            },
+        };
+        let width = (high.x - low.x) * scale + 2.0 * margin;
+        let height = (high.y - low.y) * scale + 2.0 * margin;
+        let sheet = height + foot;
+        let mut canvas = Canvas::default();
+        canvas.raw(&format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.1}mm\" height=\"{:.1}mm\" viewBox=\"0 0 {width:.0} {sheet:.0}\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
+            width / super::UNITS,
+            sheet / super::UNITS,
+        ));
+        let mut outline = PathData::default();
+        for part in &site.parts {
+            outline.polygon(part, &to);
+        }
+        Self {
+            canvas,
+            to,
+            size,
+            grain: long_side / (200.0 * super::UNITS),
+            width,
+            height,
+            outline: outline.0,
+        }
+    }
+
+    /// Fills the site.
+    pub(super) fn land(&mut self, colour: &str) {
+        self.canvas.path(
+            &self.outline,
+            &format!("fill=\"{colour}\" fill-rule=\"evenodd\""),
+        );
+    }
+
+    /// Draws the boundary.
+    pub(super) fn outline(&mut self) {
+        self.canvas.path(
+            &self.outline,
+            &format!(
+                "fill=\"none\" stroke=\"#212529\" stroke-width=\"{:.0}\" stroke-linejoin=\"round\"",
+                60.0 * self.grain
+            ),
+        );
+    }
+
+    /// Draws singularities.
+    pub(super) fn singularities(&mut self, found: &[Singularity]) {
+        let (radius, growth) = (110.0 * self.grain, 40.0 * self.grain);
+        singularities(&mut self.canvas, &self.to, found, radius, growth);
+    }
+
+    /// The document.
+    pub(super) fn finish(mut self) -> String {
+        self.canvas.raw("</svg>\n");
+        self.canvas.0
+    }
+}
+
+/// Draws singularities, orange where three streets meet and blue where five do,
+/// larger by `growth` for each further quarter of their index.
+pub(super) fn singularities(
+    canvas: &mut Canvas,
+    to: &Transform,
+    found: &[Singularity],
+    radius: f64,
+    growth: f64,
+) {
+    for singularity in found {
+        let at = to.place(singularity.at);
+        let colour = if singularity.quarter_index > 0 {
+            "#d9480f"
+        } else {
+            "#1864ab"
+        };
+        let radius = radius + growth * f64::from(singularity.quarter_index.abs() - 1);
+        canvas.raw(&format!(
+            "<circle cx=\"{:.0}\" cy=\"{:.0}\" r=\"{radius:.0}\" fill=\"{colour}\" stroke=\"#fff\" stroke-width=\"{:.0}\"/>\n",
+            at.x, at.y, 0.27 * radius
+        ));
+    }
+}
+
+/// Lowest and highest coordinates of all parts.
+pub(super) fn bounds(parts: &[Polygon<f64>]) -> (Coord<f64>, Coord<f64>) {
+    let mut boxes = parts.iter().map(extent);
+    let first = boxes.next().unwrap_or_default();
+    boxes.fold(first, |(low, high), (l, h)| {
+        (
+            Coord {
+                x: low.x.min(l.x),
+                y: low.y.min(l.y),
+            },
+            Coord {
+                x: high.x.max(h.x),
+                y: high.y.max(h.y),
+            },
+        )
+    })
+}
