@@ -333,7 +333,17 @@ mod tests {
                 1e-5
             }
         }
-        let (field, cursor) = (polar(), &mut Cursor::default());
+        // Unequal vectors that turn from each to the next.
+        let mesh = polar();
+        let vector = |(i, p): (usize, &Point)| {
+            let u = 4.0 * (0.3 * p.x - 0.17 * p.y + 0.05 * i as f64);
+            point(u.cos(), u.sin()) * (1.0 + 0.2 * i as f64)
+        };
+        let vectors = mesh.points().iter().enumerate().map(vector).collect();
+        let (points, triangles) = (mesh.points().to_vec(), mesh.triangles().to_vec());
+        let field = TriangleField::new(points, triangles, vectors).unwrap();
+        let cursor = &mut Cursor::default();
+        let mut most = 0.0_f64;
         for i in 0..40 {
             // Off all edges, on which the two may differ.
             let u = 0.1 + 0.157 * i as f64;
@@ -341,16 +351,35 @@ mod tests {
             let exact = field.divergence(at, heading, cursor).unwrap();
             let plain = Plain(&field).divergence(at, heading, cursor).unwrap();
             assert!(
-                (exact - plain).abs() < 1e-8 * (1.0 + exact.abs()),
+                (exact - plain).abs() < 1e-7 * (1.0 + exact.abs()),
                 "{exact} {plain}"
             );
             let back = field.divergence(at, heading * -1.0, cursor).unwrap();
             assert_eq!(back, -exact);
+            most = most.max(exact.abs());
         }
+        assert!(most > 0.1, "{most}");
         assert_eq!(
             field.divergence(point(3.0, 0.0), point(1.0, 0.0), cursor),
             None
         );
+    }
+
+    #[test]
+    fn walks_end_where_the_tree_says() {
+        // 1,024 triangles, more than a walk goes through.
+        let mut field = polar();
+        for _ in 0..4 {
+            field = field.refined();
+        }
+        for i in 0..2000 {
+            let at = |k: usize, n: usize| 1.05 * ((i * k % n) as f64 / n as f64 * 2.0 - 1.0);
+            let p = point(at(797, 1999), at(1021, 1993));
+            let expected = field.search(p);
+            for hint in [0, i % 1024, usize::MAX] {
+                assert_eq!(field.find(p, hint), expected, "{p:?} from {hint}");
+            }
+        }
     }
 
     #[test]

@@ -53,8 +53,8 @@ pub struct PlacementOptions {
     /// boundary, one that is nearer to its neighbour. At least 1.5 times
     /// [`test`](Self::test), or two would not fit.
     ///
-    /// Spacing gets more even, at the price of more and shorter lines and of a
-    /// third more time. With 1.29 and a `test` of 0.86 fewer than one point in a
+    /// Spacing gets more even, at the price of more and shorter lines and of two
+    /// fifths more time. With 1.29 and a `test` of 0.86 fewer than one point in a
     /// hundred is farther than 1.3 separations from the nearest other line;
     /// without it one in eight is, where a field spreads. Closed lines stay
     /// whole.

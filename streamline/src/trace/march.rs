@@ -148,16 +148,22 @@ impl<F: DirectionField + ?Sized> March<'_, F> {
                 continue;
             }
             let count = chord.len() as f64;
+            // Far from the seed, and with no eye on itself, the line need not
+            // look about at every point.
+            let clear = 1.1 * length + 2.0 * options.step;
+            let aloof = track.is_off() && norm(step.from - self.seed) > clear;
             let mut stopped = None;
             for (i, &to) in chord.iter().enumerate() {
-                head.look(to);
                 let part = (i as f64 / count, (i + 1) as f64 / count);
-                if let Some(t) = self.passes_seed(&step, &head, to, part) {
-                    points.push(self.seed);
-                    keep.step(&step, t);
-                    keep.straight(step.at(t), self.seed);
-                    stopped = Some(Stop::ClosedLoop);
-                    break;
+                if !aloof {
+                    head.look(to);
+                    if let Some(t) = self.passes_seed(&step, &head, to, part) {
+                        points.push(self.seed);
+                        keep.step(&step, t);
+                        keep.straight(step.at(t), self.seed);
+                        stopped = Some(Stop::ClosedLoop);
+                        break;
+                    }
                 }
                 stopped = watch(points.last().copied().unwrap_or(self.seed), to);
                 if stopped.is_some() {
@@ -165,7 +171,7 @@ impl<F: DirectionField + ?Sized> March<'_, F> {
                     break;
                 }
                 points.push(to);
-                if track.advance(&mut head, to) {
+                if !aloof && track.advance(&mut head, to) {
                     keep.step(&step, part.1);
                     stopped = Some(Stop::SelfApproach);
                     break;
@@ -175,6 +181,12 @@ impl<F: DirectionField + ?Sized> March<'_, F> {
                 break stop;
             }
             keep.step(&step, 1.0);
+            if aloof {
+                head.leap(
+                    chord.iter().rev().nth(1).copied().unwrap_or(step.from),
+                    step.to,
+                );
+            }
             state.at = step.to;
             state.along = step.direction();
             state.gone += length;

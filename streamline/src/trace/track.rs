@@ -79,6 +79,14 @@ impl Head {
         self.start
     }
 
+    /// Moves the head over several chords at once, of which the last one runs
+    /// from `from` to `to`: they turn by less than half a turn together.
+    pub(crate) fn leap(&mut self, from: Point, to: Point) {
+        self.last = from;
+        self.look(to);
+        self.last = to;
+    }
+
     /// Turns the head to the chord towards `to`, without moving it.
     pub(crate) fn look(&mut self, to: Point) {
         let chord = to - self.last;
@@ -100,6 +108,11 @@ impl Track {
             in_grid: 0,
             span: (0.0, 0.0),
         }
+    }
+
+    /// Whether pieces are not compared at all.
+    pub(crate) fn is_off(&self) -> bool {
+        self.reach == 0.0
     }
 
     fn cell_of(&self, p: Point) -> (i64, i64) {
