@@ -337,6 +337,24 @@ mod tests {
         assert!((shores[1].1 - wanted).abs() < 1e-5);
     }
 
+    /// What a strip meets first counts, though it branches and goes on.
+    #[test]
+    fn the_nearest_end_of_a_branching_strip() {
+        let land = polygon![(x: 0., y: 0.), (x: 90., y: 0.), (x: 90., y: 130.), (x: 45., y: 100.), (x: 0., y: 100.)];
+        let lines = [
+            line_string![(x: 0., y: 30.), (x: 90., y: 30.)],
+            line_string![(x: 0., y: 60.), (x: 90., y: 60.)],
+            line_string![(x: 45., y: 60.), (x: 45., y: 100.)],
+            line_string![(x: 0., y: 80.), (x: 45., y: 80.)],
+        ];
+        let tiling = keep(&land, &lines);
+        let slope = 30_f64.atan2(45.0).to_degrees();
+        let shores = seen(&tiling, 0, point(45.0, 30.0));
+        assert_eq!(shores[0], (0, 0.0));
+        assert_eq!(shores[1].0, 1, "one tile before that under the slope");
+        assert!((shores[1].1 - slope).abs() < 1e-6);
+    }
+
     #[test]
     fn other_rings_are_opposite() {
         // Between two concentric squares: a line around. Of the hole and of the
