@@ -152,7 +152,7 @@ impl Strips {
     /// Finds all shores, nearest first: those in the entered tile, then those
     /// one tile farther, and so on. Strips that go round and round have none.
     fn walk(&mut self, tiling: &Tiling) {
-        // Who comes here next, and across what length.
+        // The sides from which a strip comes to this one next.
         let mut from: Vec<Vec<usize>> = vec![Vec::new(); self.sides.len()];
         let mut front = Vec::new();
         for side in 0..self.sides.len() {
@@ -173,8 +173,11 @@ impl Strips {
                 front.push(side);
                 continue;
             }
-            for next in self.next(side) {
-                from[next.0].push(side);
+            for (next, _) in self.next(side) {
+                // Half-edges between the same two tiles follow each other.
+                if from[next].last() != Some(&side) {
+                    from[next].push(side);
+                }
             }
         }
         let mut tiles = 0;
