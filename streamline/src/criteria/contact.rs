@@ -78,3 +78,87 @@ impl Contacts {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vector::{distance, point};
+
+    /// A room whose right wall leans by 30 degrees.
+    fn room() -> Vec<(Point, Point)> {
+        let lean = 60.0 * 30_f64.to_radians().tan();
+        let corners = [
+            (0., 0.),
+            (100., 0.),
+            (100. + lean, 60.),
+            (0., 60.),
+            (0., 0.),
+        ];
+        let points = corners.map(|(x, y)| point(x, y));
+        points.windows(2).map(|p| (p[0], p[1])).collect()
+    }
+
+    /// What is seen a quarter and three quarters along the way from `a` to `b`.
+    fn seen(a: Point, b: Point, stops: [Stop; 2]) -> [Option<f64>; 2] {
+        let line = Streamline {
+            points: vec![a, b],
+            start: stops[0],
+            end: stops[1],
+            seed: a,
+            family: 0,
+            seed_index: 0,
+        };
+        let boundary = room();
+        let nearby = Nearby::new(boundary.iter().copied());
+        let length = distance(a, b);
+        let options = CriteriaOptions::default();
+        let contacts = Contacts::new(&line, length, &boundary, &nearby, &options);
+        let samples = line.samples(length / 2.0);
+        [0, 1].map(|i| {
+            let degrees = |off: f64| (off * 90.0 * 1e9).round() / 1e9;
+            contacts
+                .off(&samples[i], (i as f64 + 0.5) * length / 2.0)
+                .map(degrees)
+        })
+    }
+
+    const OPEN: [Stop; 2] = [Stop::LengthLimit; 2];
+
+    #[test]
+    fn each_half_is_compared_with_its_own_end() {
+        let wall = point(100.0 + 20.0 * 30_f64.to_radians().tan(), 20.0);
+        let at_both = seen(point(0.0, 20.0), wall, OPEN);
+        assert_eq!(at_both, [Some(0.0), Some(30.0)]);
+        // The only end there is serves all of the line.
+        let at_one = seen(point(50.0, 20.0), wall, OPEN);
+        assert_eq!(at_one, [Some(30.0), Some(30.0)]);
+        let at_none = seen(point(40.0, 20.0), point(60.0, 20.0), OPEN);
+        assert_eq!(at_none, [None, None]);
+    }
+
+    #[test]
+    fn a_corner_has_two_edges_to_fit() {
+        // 60 degrees off the bottom's right angle, 30 off the left wall's.
+        let inwards = point(30_f64.to_radians().cos(), 30_f64.to_radians().sin()) * 40.0;
+        let from_corner = seen(point(0.0, 0.0), inwards, OPEN);
+        assert_eq!(from_corner, [Some(30.0), Some(30.0)]);
+    }
+
+    #[test]
+    fn an_end_that_knows_where_it_is_may_be_inexact() {
+        // 5 m short of the left wall.
+        let short = |stop| {
+            let stops = [stop, Stop::Neighbour];
+            seen(point(5.0, 20.0), point(50.0, 20.0), stops)
+        };
+        let known = Stop::Boundary { ring: 0, edge: 3 };
+        assert_eq!(short(known), [Some(0.0), Some(0.0)]);
+        assert_eq!(short(Stop::Neighbour), [None, None]);
+    }
+
+    #[test]
+    fn a_closed_line_has_no_ends() {
+        let closed = seen(point(0.0, 20.0), point(50.0, 20.0), [Stop::ClosedLoop; 2]);
+        assert_eq!(closed, [None, None]);
+    }
+}

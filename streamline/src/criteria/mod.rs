@@ -35,7 +35,8 @@ use total::Share;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SegmentCriteria {
-    /// Its middle, direction and length.
+    /// Its middle, which lies on the line, its direction from end to end, and
+    /// its length along the line.
     pub piece: Sample,
     /// Absolute divergence of the field there, in 1/m. `None` where the field
     /// has none.

@@ -152,7 +152,7 @@ impl Strips {
     /// Finds all shores, nearest first: those in the entered tile, then those
     /// one tile farther, and so on. Strips that go round and round have none.
     fn walk(&mut self, tiling: &Tiling) {
-        // Who comes here next, and across what length.
+        // The sides from which a strip comes to this one next.
         let mut from: Vec<Vec<usize>> = vec![Vec::new(); self.sides.len()];
         let mut front = Vec::new();
         for side in 0..self.sides.len() {
@@ -173,8 +173,11 @@ impl Strips {
                 front.push(side);
                 continue;
             }
-            for next in self.next(side) {
-                from[next.0].push(side);
+            for (next, _) in self.next(side) {
+                // Half-edges between the same two tiles follow each other.
+                if from[next].last() != Some(&side) {
+                    from[next].push(side);
+                }
             }
         }
         let mut tiles = 0;
@@ -335,6 +338,24 @@ mod tests {
         // Doubled directions (1, 0) and (0, 1) with weights 60 and 10.
         let wanted = 10_f64.atan2(60.0).to_degrees() / 2.0;
         assert!((shores[1].1 - wanted).abs() < 1e-5);
+    }
+
+    /// What a strip meets first counts, though it branches and goes on.
+    #[test]
+    fn the_nearest_end_of_a_branching_strip() {
+        let land = polygon![(x: 0., y: 0.), (x: 90., y: 0.), (x: 90., y: 130.), (x: 45., y: 100.), (x: 0., y: 100.)];
+        let lines = [
+            line_string![(x: 0., y: 30.), (x: 90., y: 30.)],
+            line_string![(x: 0., y: 60.), (x: 90., y: 60.)],
+            line_string![(x: 45., y: 60.), (x: 45., y: 100.)],
+            line_string![(x: 0., y: 80.), (x: 45., y: 80.)],
+        ];
+        let tiling = keep(&land, &lines);
+        let slope = 30_f64.atan2(45.0).to_degrees();
+        let shores = seen(&tiling, 0, point(45.0, 30.0));
+        assert_eq!(shores[0], (0, 0.0));
+        assert_eq!(shores[1].0, 1, "one tile before that under the slope");
+        assert!((shores[1].1 - slope).abs() < 1e-6);
     }
 
     #[test]
