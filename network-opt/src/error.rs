@@ -260,14 +260,20 @@ pub enum OptimizeError {
     Cancelled,
 }
 
-/// Why a network could not be designed by an integer program.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+/// Why a network could not be designed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum NetworkError {
-    /// This version of the crate has no integer programs.
-    #[error("network design by integer programs is not available in version {version} of network-opt; split by streamlines or templates instead")]
-    NotAvailable {
-        /// The version of this crate.
-        version: &'static str,
+pub enum DesignError {
+    /// The mesh is none.
+    #[error("the mesh is not a polygonal mesh: {what}")]
+    BadMesh {
+        /// What is wrong, and where.
+        what: String,
+    },
+    /// The lists of a problem do not fit together.
+    #[error("the problem does not fit together: {what}")]
+    BadProblem {
+        /// What is wrong, and where.
+        what: String,
     },
 }

@@ -5,9 +5,10 @@ pub use geo_types;
 pub mod design;
 mod error;
 pub mod mesh;
+pub mod solve;
 pub mod strip;
 
-pub use error::{MeshError, MeshFault, NetworkError, OptimizeError};
+pub use error::{DesignError, MeshError, MeshFault, OptimizeError};
 pub use mesh::{End, FaceId, HalfEdgeId, Locator, PlanarMesh, Split, VertexId, Wire};
 pub use strip::{
     collapse_short_edges, optimize, roads, streets, Block, Energy, Fairness, Freedom,
