@@ -5,6 +5,7 @@ pub use geo_types;
 pub mod design;
 mod error;
 pub mod mesh;
+pub mod quad;
 pub mod solve;
 pub mod strip;
 

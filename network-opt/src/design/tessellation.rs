@@ -235,6 +235,43 @@ impl Tessellation {
         ball
     }
 
+    /// The mesh of the next level: every face cut from its middle to the
+    /// middles of its sides (the topology of Catmull and Clark's subdivision,
+    /// vertices staying where they are, as the paper's section 5.1 has it).
+    /// Quads become four quads each.
+    ///
+    /// Vertices keep their numbers; the middle of edge `e` is vertex
+    /// `points().len() + e`, that of face `f` follows after those of all
+    /// edges. Edge `e` becomes the edges `2 e` and `2 e + 1`, from its first
+    /// end on.
+    #[must_use]
+    pub fn refined(&self) -> Self {
+        let (vertices, edges) = (self.points.len(), self.edges.len());
+        let mut points = self.points.clone();
+        let middle = |of: &[usize]| {
+            let sum = of
+                .iter()
+                .fold(Coord::zero(), |sum, &v| sum + self.points[v]);
+            sum / of.len() as f64
+        };
+        points.extend(self.edges.iter().map(|ends| middle(ends)));
+        points.extend(self.faces.iter().map(|face| middle(face)));
+        let mut halves: Vec<[usize; 2]> = Vec::with_capacity(2 * edges + 4 * self.faces.len());
+        for (e, &[a, b]) in self.edges.iter().enumerate() {
+            halves.extend([[a, vertices + e], [vertices + e, b]]);
+        }
+        let mut faces = Vec::new();
+        for (f, (face, own)) in self.faces.iter().zip(&self.face_edges).enumerate() {
+            let centre = vertices + edges + f;
+            halves.extend(own.iter().map(|&e| [vertices + e, centre]));
+            for k in 0..face.len() {
+                let before = own[(k + own.len() - 1) % own.len()];
+                faces.push(vec![face[k], vertices + own[k], centre, vertices + before]);
+            }
+        }
+        Self::with_edges(points, faces, halves).unwrap_or_else(|_| self.clone())
+    }
+
     /// The two edges of each quad that lie opposite each other, by pairs: what
     /// the paper calls too close when both are active.
     #[must_use]
@@ -305,6 +342,21 @@ mod tests {
         assert_eq!(grid(6, 6).ball(24, 2).len(), 13);
         assert_eq!(mesh.around(6).len(), 4);
         assert_eq!(mesh.edge_between(0, 6), None);
+    }
+
+    #[test]
+    fn the_next_level_has_four_quads_for_one() {
+        let mesh = grid(3, 2);
+        let fine = mesh.refined();
+        assert_eq!(fine.faces().len(), 24);
+        assert_eq!(fine.edges().len(), 6 * 5 + 7 * 4);
+        assert_eq!(&fine.points()[..12], mesh.points());
+        for (e, &[a, b]) in mesh.edges().iter().enumerate() {
+            assert_eq!(fine.edges()[2 * e], [a, 12 + e]);
+            assert_eq!(fine.edges()[2 * e + 1], [12 + e, b]);
+        }
+        let total = |m: &Tessellation| (0..m.edges().len()).map(|e| m.length(e)).sum::<f64>();
+        assert!((total(&fine) - (4.0 * 7.0 + 6.0 * 5.0) / 2.0 - 0.0).abs() < 1e-12);
     }
 
     /// Each zig-zag is a path whose ends lie on different sides of its middle.
