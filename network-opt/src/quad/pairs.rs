@@ -80,10 +80,10 @@ fn inside(outline: &Outline, triangles: &[[usize; 3]]) -> Vec<bool> {
     }
     let mut known: Vec<Option<bool>> = vec![None; triangles.len()];
     let mut queue = VecDeque::new();
-    for t in 0..triangles.len() {
+    for (t, known) in known.iter_mut().enumerate() {
         let forward = sides(t).any(|(a, b)| on_outline(a, b));
         if forward || sides(t).any(|(a, b)| on_outline(b, a)) {
-            known[t] = Some(forward);
+            *known = Some(forward);
             queue.push_back(t);
         }
     }
