@@ -6,14 +6,17 @@
 //! a street, every street leads to a sink, and length and travel are small.
 //!
 //! - [`Tessellation`]: the mesh;
+//! - [`Specification`]: what the network is for, in a designer's words;
 //! - [`Problem`]: what is asked of it, edge by edge;
 //! - [`Network`]: an answer; [`verify`] says what is wrong with it and [`cost`]
 //!   what it costs, both without knowledge of any solver.
 
 mod problem;
+mod spec;
 mod tessellation;
 mod verify;
 
 pub use problem::{EdgeState, Network, Pattern, PatternKind, Placement, Problem, Rooms};
+pub use spec::{Coverage, Feature, Rim, Sinks, Specification};
 pub use tessellation::Tessellation;
 pub use verify::{cost, distances, verify, Cost, Violation};

@@ -235,6 +235,41 @@ impl Tessellation {
         ball
     }
 
+    /// All vertices within `metres` of vertex `v` along edges, itself first.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such vertex.
+    #[must_use]
+    pub fn within(&self, v: usize, metres: f64) -> Vec<usize> {
+        let mut found = vec![v];
+        let mut away = vec![0.0];
+        // Few vertices: what is reached anew, or by a shorter way, waits to be
+        // gone on from.
+        let mut waiting = std::collections::VecDeque::from([0]);
+        while let Some(at) = waiting.pop_front() {
+            for &(e, w) in &self.around[found[at]] {
+                let there = away[at] + self.length(e);
+                if there > metres {
+                    continue;
+                }
+                match found.iter().position(|&known| known == w) {
+                    Some(k) if there < away[k] => {
+                        away[k] = there;
+                        waiting.push_back(k);
+                    }
+                    Some(_) => {}
+                    None => {
+                        waiting.push_back(found.len());
+                        found.push(w);
+                        away.push(there);
+                    }
+                }
+            }
+        }
+        found
+    }
+
     /// The mesh of the next level: every face cut from its middle to the
     /// middles of its sides (the topology of Catmull and Clark's subdivision,
     /// vertices staying where they are, as the paper's section 5.1 has it).
@@ -342,6 +377,27 @@ mod tests {
         assert_eq!(grid(6, 6).ball(24, 2).len(), 13);
         assert_eq!(mesh.around(6).len(), 4);
         assert_eq!(mesh.edge_between(0, 6), None);
+    }
+
+    /// A long way that a shorter one follows: around a flat square.
+    #[test]
+    fn reach_is_by_the_shortest_way() {
+        let mesh = grid(6, 6);
+        let (mut a, mut b) = (mesh.within(24, 2.5), mesh.ball(24, 2));
+        a.sort_unstable();
+        b.sort_unstable();
+        assert_eq!(a, b);
+        // Vertex 2 is two edges and 16 from vertex 0 over 1, but four edges and 9
+        // along 4, 5 and 3; vertex 1 itself is at 9.9.
+        let points = [(0., 0.), (7., 7.), (8., 1.), (8., 0.), (3., 0.), (6., 0.)];
+        let faces = vec![vec![0, 4, 1], vec![4, 5, 3, 2, 1]];
+        let flat = Tessellation::new(points.map(|(x, y)| coord! { x: x, y: y }).to_vec(), faces)
+            .expect("a mesh");
+        let mut near = flat.within(0, 9.95);
+        near.sort_unstable();
+        assert_eq!(near, [0, 1, 2, 3, 4, 5]);
+        assert_eq!(flat.within(0, 8.5).len(), 4);
+        assert_eq!(flat.within(0, 0.0), [0]);
     }
 
     #[test]
