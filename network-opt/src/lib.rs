@@ -6,6 +6,7 @@ pub mod design;
 mod error;
 pub mod mesh;
 pub mod quad;
+mod quadratic;
 pub mod solve;
 pub mod strip;
 
