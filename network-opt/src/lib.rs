@@ -7,6 +7,7 @@ mod error;
 pub mod mesh;
 pub mod quad;
 mod quadratic;
+pub mod snake;
 pub mod solve;
 pub mod strip;
 
