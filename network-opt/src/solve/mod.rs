@@ -5,6 +5,11 @@ use std::time::Duration;
 use crate::design::{Cost, Network, Problem};
 use crate::error::DesignError;
 
+mod exact;
+mod record;
+
+pub use exact::Exact;
+
 /// How long to look, and how good is good enough.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

@@ -1,0 +1,226 @@
+//! The exact solver: an integer program, solved to proof if time allows.
+
+use super::record::Record;
+use super::{Ended, Limits, NetworkSolver, Outcome, Watch};
+use crate::design::{verify, Network, Problem};
+use crate::error::DesignError;
+use crate::formulate::{longest_ways, Formulated, Formulation};
+use crate::mip::{MipProgress, MipSolver, MipStatus};
+
+/// Solves problems as integer programs.
+///
+/// Every network that it reports has passed [`verify`]; its cost is that of
+/// [`cost`](crate::design::cost), and the bound is one on that cost.
+///
+/// # Examples
+///
+/// ```
+/// use network_opt::design::Problem;
+/// use network_opt::mip::Microlp;
+/// use network_opt::solve::{Ended, Exact, Limits, NetworkSolver};
+///
+/// // A street around a block, from the sink to vertex 2 and back.
+/// let problem = Problem {
+///     vertices: 4,
+///     ends: vec![[0, 1], [1, 2], [2, 3], [3, 0]],
+///     lengths: vec![1.0; 4],
+///     states: vec![Default::default(); 4],
+///     sinks: vec![true, false, false, false],
+///     required_vertices: vec![2],
+///     length_weight: 1.0,
+///     ..Problem::default()
+/// };
+/// let found = Exact::new(Microlp).solve(&problem, None, &Limits::default(), &mut |_| true)?;
+/// assert_eq!(found.ended, Ended::Proven);
+/// assert_eq!(found.cost.objective, 4.0);
+/// # Ok::<(), network_opt::DesignError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Exact<M> {
+    /// Solves the programs.
+    pub solver: M,
+    /// Which program a problem becomes.
+    ///
+    /// Default value: [`Formulation::Recommended`].
+    pub formulation: Formulation,
+    /// Rounds of cuts at most that are added where a solution of the relaxation
+    /// violates them, before the search: room cuts.
+    ///
+    /// Default value: 12.
+    pub rounds: usize,
+}
+
+impl<M> Exact<M> {
+    /// With the recommended formulation.
+    pub const fn new(solver: M) -> Self {
+        Self {
+            solver,
+            formulation: Formulation::Recommended,
+            rounds: 12,
+        }
+    }
+}
+
+impl<M: MipSolver> NetworkSolver for Exact<M> {
+    fn solve(
+        &self,
+        problem: &Problem,
+        start: Option<&Network>,
+        limits: &Limits,
+        watch: &mut Watch<'_>,
+    ) -> Result<Outcome, DesignError> {
+        problem.check()?;
+        let mut record = Record::new(problem, watch);
+        if let Some(network) = start {
+            record.offer(network.clone());
+        }
+        let formulation = match self.formulation {
+            Formulation::Recommended => Formulation::for_problem(problem),
+            other => other,
+        };
+        let mut longest = None;
+        if formulation == Formulation::SingleSink {
+            // Its bounds on ways are those of networks that cost no more than a
+            // known one, so that is found first, whatever it travels.
+            if record.best.is_none() {
+                let shortest = Problem {
+                    length_weight: problem.length_weight.max(1.0),
+                    travel_weight: 0.0,
+                    ..problem.clone()
+                };
+                let formulated = Formulated::new(&shortest, Formulation::Flow, None)?;
+                let left = record.left(limits);
+                let ended = self.run(&formulated, &left, &mut record, Until::First)?;
+                if record.best.is_none() {
+                    return Ok(record.outcome(ended));
+                }
+                // What it says of costs is of another problem.
+                record.bound = 0.0;
+            }
+            longest = (record.best.as_ref()).map(|(_, cost)| longest_ways(problem, cost.objective));
+        }
+        let mut formulated = Formulated::new(problem, formulation, longest)?;
+        if formulated.contradicts() {
+            return Ok(record.outcome(Ended::Infeasible));
+        }
+        self.tighten(&mut formulated, limits, &mut record)?;
+        let left = record.left(limits);
+        let ended = self.run(&formulated, &left, &mut record, Until::Proof)?;
+        Ok(record.outcome(ended))
+    }
+}
+
+/// When a run is over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Until {
+    /// With the first valid network.
+    First,
+    /// With a proof.
+    Proof,
+}
+
+impl<M: MipSolver> Exact<M> {
+    /// Adds cuts that solutions of the relaxation violate, in rounds, and takes
+    /// its bound.
+    fn tighten(
+        &self,
+        formulated: &mut Formulated<'_>,
+        limits: &Limits,
+        record: &mut Record<'_, '_>,
+    ) -> Result<(), DesignError> {
+        // A fifth of the time at most.
+        let budget = limits.deadline.map(|deadline| deadline / 5);
+        for _ in 0..self.rounds {
+            if record.cancelled || budget.is_some_and(|budget| record.began.elapsed() > budget) {
+                break;
+            }
+            if !formulated.separates() {
+                break;
+            }
+            let relaxed = formulated.program().relaxed();
+            let limits = Limits {
+                deadline: budget.map(|budget| budget.saturating_sub(record.began.elapsed())),
+                ..limits.clone()
+            };
+            let found = self
+                .solver
+                .solve(&relaxed, None, &limits, &mut |_| record.report(false))?;
+            let (MipStatus::Optimal, Some(values)) = (found.status, &found.solution) else {
+                break;
+            };
+            record.raise(formulated.program().rounded(found.objective));
+            let rows = formulated.separate(values, 0.05);
+            if rows.is_empty() {
+                break;
+            }
+            rows.into_iter().for_each(|row| formulated.cut(row));
+        }
+        Ok(())
+    }
+
+    /// Solves a program; all networks found are offered to the record.
+    fn run(
+        &self,
+        formulated: &Formulated<'_>,
+        limits: &Limits,
+        record: &mut Record<'_, '_>,
+        until: Until,
+    ) -> Result<Ended, DesignError> {
+        if record.cancelled {
+            return Ok(Ended::Cancelled);
+        }
+        let start = record
+            .best
+            .as_ref()
+            .map(|(network, _)| formulated.solution(network));
+        let program = formulated.program();
+        let mut enough = false;
+        let found = self.solver.solve(
+            program,
+            start.as_deref(),
+            limits,
+            &mut |told: &MipProgress<'_>| {
+                let mut improved = false;
+                if let (Some(values), true) = (told.best, told.improved) {
+                    improved = record.offer(formulated.network(values));
+                }
+                record.raise(program.rounded(told.bound));
+                enough = match until {
+                    Until::First => record.best.is_some(),
+                    Until::Proof => record.is_within(limits.gap),
+                };
+                record.report(improved) && !enough
+            },
+        )?;
+        let mut invalid = None;
+        if let Some(values) = &found.solution {
+            let network = formulated.network(values);
+            invalid = verify(record.problem, &network).into_iter().next();
+            record.offer(network);
+        }
+        if found.status != MipStatus::Infeasible {
+            record.raise(program.rounded(found.bound));
+        }
+        match found.status {
+            MipStatus::Infeasible if record.best.is_some() => {
+                // The program only knows of networks that are no worse.
+                record.close();
+                Ok(Ended::Proven)
+            }
+            MipStatus::Infeasible => Ok(Ended::Infeasible),
+            _ if until == Until::Proof && record.is_within(limits.gap) => Ok(Ended::Proven),
+            MipStatus::Optimal if record.best.is_none() => Err(DesignError::SolverFailed {
+                solver: self.solver.name(),
+                what: match invalid {
+                    Some(violation) => format!("its solution is not valid: {violation}"),
+                    None => "it has a proof, but no solution".to_owned(),
+                },
+            }),
+            // Of a program that does not price all: the bound stands.
+            MipStatus::Optimal => Ok(Ended::Deadline),
+            MipStatus::Deadline => Ok(Ended::Deadline),
+            MipStatus::Cancelled if record.cancelled => Ok(Ended::Cancelled),
+            MipStatus::Cancelled => Ok(Ended::Deadline),
+        }
+    }
+}
