@@ -55,8 +55,10 @@ pub enum Formulation {
 
 impl Formulation {
     /// The one that measured best: [`Formulation::Flow`] where travel costs
-    /// nothing, [`Formulation::SingleSink`] with one sink and travel alone that
-    /// counts, [`Formulation::TravelFlow`] else.
+    /// nothing, [`Formulation::SingleSink`] with one sink and travel that counts
+    /// most, [`Formulation::TravelFlow`] else. Where travel only breaks ties
+    /// between networks of one length, [`Exact`](crate::solve::Exact) solves the
+    /// flow before it.
     #[must_use]
     pub fn for_problem(problem: &Problem) -> Self {
         let sinks = problem.sinks.iter().filter(|&&sink| sink).count();
@@ -81,6 +83,9 @@ pub struct Formulated<'p> {
     families: Vec<Family>,
     contradicts: bool,
     longest: Option<Vec<f64>>,
+    /// Columns before those of connectivity, travel and rooms: what they cost is
+    /// length and patterns.
+    plain: usize,
 }
 
 /// Families with columns of their own.
@@ -146,6 +151,7 @@ impl<'p> Formulated<'p> {
             plain(Box::new(patterns::add(&mut draft)));
             balls::add(&mut draft);
         }
+        let plain_columns = draft.program.columns().len();
         match formulation {
             Formulation::Recommended | Formulation::Flow => {
                 plain(Box::new(flow::add(&mut draft)));
@@ -176,6 +182,7 @@ impl<'p> Formulated<'p> {
             families,
             contradicts: draft.contradicts,
             longest,
+            plain: plain_columns,
         })
     }
 
@@ -272,6 +279,17 @@ impl<'p> Formulated<'p> {
     /// Adds a row that all valid networks meet.
     pub fn cut(&mut self, row: Row) {
         self.program.row(row.low, row.high, row.terms);
+    }
+
+    /// Adds a row: length and patterns cost `low` at least and `high` at most,
+    /// by their weights. Patterns of [`Formulation::Paper`] are not counted.
+    pub fn limit_length(&mut self, low: f64, high: f64) {
+        let columns = self.program.columns()[..self.plain].iter().enumerate();
+        let terms: Vec<(usize, f64)> = columns
+            .filter(|(_, c)| c.cost != 0.0)
+            .map(|(k, c)| (k, c.cost))
+            .collect();
+        self.program.row(low, high, terms);
     }
 
     fn room_family(&self) -> Option<&rooms::Rooms> {

@@ -81,7 +81,10 @@ pub(super) fn add(draft: &mut Draft<'_>) -> HalfEdges {
         let mut terms: Vec<_> = edges.iter().map(|&(e, _)| (draft.x[e], 1.0)).collect();
         let n = terms.iter().filter(|(x, _)| *x != Term::Off).count() as f64;
         terms.push((y, -n));
-        draft.row(1.0 - n, 0.0, terms);
+        // Nothing is asked of a vertex without edges.
+        if n > 0.0 {
+            draft.row(1.0 - n, 0.0, terms);
+        }
     }
     patterns(draft, &mut columns);
     columns
@@ -122,7 +125,8 @@ fn follow(draft: &mut Draft<'_>, columns: &mut HalfEdges, e: usize, k: usize, al
         let n = next.len() as f64;
         let mut terms: Vec<_> = next.iter().map(|&f| (draft.x[f], 1.0)).collect();
         terms.push((nu, -n));
-        draft.row(1.0 - n, 0.0, terms);
+        let low = if next.is_empty() { 0.0 } else { 1.0 - n };
+        draft.row(low, 0.0, terms);
         draft.row(f64::NEG_INFINITY, 0.0, [(active, 1.0), (nu, -1.0)]);
     }
 }

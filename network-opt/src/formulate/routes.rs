@@ -30,7 +30,7 @@ pub(super) fn add(draft: &mut Draft<'_>, tight: bool) -> Routes {
             paths.push((r, k, column));
             let chosen = Term::Column(column);
             any.push((chosen, 1.0));
-            if tight {
+            if tight || path.is_empty() {
                 for &e in path {
                     let x = draft.x[e];
                     draft.row(f64::NEG_INFINITY, 0.0, [(chosen, 1.0), (x, -1.0)]);

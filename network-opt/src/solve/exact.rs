@@ -78,6 +78,9 @@ impl<M: MipSolver> NetworkSolver for Exact<M> {
             Formulation::Recommended => Formulation::for_problem(problem),
             other => other,
         };
+        if self.formulation == Formulation::Recommended && breaks_ties(problem) {
+            return self.in_two_steps(problem, formulation, limits, record);
+        }
         let mut longest = None;
         if formulation == Formulation::SingleSink {
             // Its bounds on ways are those of networks that cost no more than a
@@ -90,12 +93,10 @@ impl<M: MipSolver> NetworkSolver for Exact<M> {
                 };
                 let formulated = Formulated::new(&shortest, Formulation::Flow, None)?;
                 let left = record.left(limits);
-                let ended = self.run(&formulated, &left, &mut record, Until::First)?;
+                let run = self.run(&formulated, &left, &mut record, Until::First)?;
                 if record.best.is_none() {
-                    return Ok(record.outcome(ended));
+                    return Ok(record.outcome(run.ended()));
                 }
-                // What it says of costs is of another problem.
-                record.bound = 0.0;
             }
             longest = (record.best.as_ref()).map(|(_, cost)| longest_ways(problem, cost.objective));
         }
@@ -105,21 +106,78 @@ impl<M: MipSolver> NetworkSolver for Exact<M> {
         }
         self.tighten(&mut formulated, limits, &mut record)?;
         let left = record.left(limits);
-        let ended = self.run(&formulated, &left, &mut record, Until::Proof)?;
-        Ok(record.outcome(ended))
+        let run = self.run(&formulated, &left, &mut record, Until::Proof)?;
+        Ok(record.outcome(run.ended()))
     }
 }
 
 /// When a run is over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Until {
-    /// With the first valid network.
+    /// With the first valid network; bounds are of another problem.
     First,
     /// With a proof.
     Proof,
 }
 
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Run {
+    /// For this reason.
+    Ended(Ended),
+    /// With the optimum of its program, which does not price all.
+    Settled,
+}
+
+impl Run {
+    /// Without anything after it.
+    const fn ended(self) -> Ended {
+        match self {
+            Self::Ended(ended) => ended,
+            // The bound is as good as this program can make it.
+            Self::Settled => Ended::Deadline,
+        }
+    }
+}
+
+/// Whether travel is worth so little that length has to be settled first.
+fn breaks_ties(problem: &Problem) -> bool {
+    problem.travel_weight > 0.0 && problem.travel_weight <= problem.length_weight / 100.0
+}
+
 impl<M: MipSolver> Exact<M> {
+    /// First the least length, without travel, by the program that is best for
+    /// that; then travel among networks that can still be better.
+    ///
+    /// Every network costs in length and patterns at least what the first
+    /// program's bound says, and one that is better than the best at most what
+    /// that costs in all.
+    fn in_two_steps(
+        &self,
+        problem: &Problem,
+        formulation: Formulation,
+        limits: &Limits,
+        mut record: Record<'_, '_>,
+    ) -> Result<Outcome, DesignError> {
+        let mut flow = Formulated::new(problem, Formulation::Flow, None)?;
+        if flow.contradicts() {
+            return Ok(record.outcome(Ended::Infeasible));
+        }
+        self.tighten(&mut flow, limits, &mut record)?;
+        let left = record.left(limits);
+        let run = self.run(&flow, &left, &mut record, Until::Proof)?;
+        let best = record.best.as_ref().map(|(_, cost)| cost.objective);
+        let (Run::Settled, Some(high)) = (run, best) else {
+            return Ok(record.outcome(run.ended()));
+        };
+        let longest = (formulation == Formulation::SingleSink).then(|| longest_ways(problem, high));
+        let mut travel = Formulated::new(problem, formulation, longest)?;
+        travel.limit_length(record.bound - 1e-6, high);
+        let left = record.left(limits);
+        let run = self.run(&travel, &left, &mut record, Until::Proof)?;
+        Ok(record.outcome(run.ended()))
+    }
+
     /// Adds cuts that solutions of the relaxation violate, in rounds, and takes
     /// its bound.
     fn tighten(
@@ -165,9 +223,9 @@ impl<M: MipSolver> Exact<M> {
         limits: &Limits,
         record: &mut Record<'_, '_>,
         until: Until,
-    ) -> Result<Ended, DesignError> {
+    ) -> Result<Run, DesignError> {
         if record.cancelled {
-            return Ok(Ended::Cancelled);
+            return Ok(Run::Ended(Ended::Cancelled));
         }
         let start = record
             .best
@@ -184,7 +242,9 @@ impl<M: MipSolver> Exact<M> {
                 if let (Some(values), true) = (told.best, told.improved) {
                     improved = record.offer(formulated.network(values));
                 }
-                record.raise(program.rounded(told.bound));
+                if until == Until::Proof {
+                    record.raise(program.rounded(told.bound));
+                }
                 enough = match until {
                     Until::First => record.best.is_some(),
                     Until::Proof => record.is_within(limits.gap),
@@ -198,17 +258,19 @@ impl<M: MipSolver> Exact<M> {
             invalid = verify(record.problem, &network).into_iter().next();
             record.offer(network);
         }
-        if found.status != MipStatus::Infeasible {
+        if until == Until::Proof && found.status != MipStatus::Infeasible {
             record.raise(program.rounded(found.bound));
         }
         match found.status {
             MipStatus::Infeasible if record.best.is_some() => {
                 // The program only knows of networks that are no worse.
                 record.close();
-                Ok(Ended::Proven)
+                Ok(Run::Ended(Ended::Proven))
             }
-            MipStatus::Infeasible => Ok(Ended::Infeasible),
-            _ if until == Until::Proof && record.is_within(limits.gap) => Ok(Ended::Proven),
+            MipStatus::Infeasible => Ok(Run::Ended(Ended::Infeasible)),
+            _ if until == Until::Proof && record.is_within(limits.gap) => {
+                Ok(Run::Ended(Ended::Proven))
+            }
             MipStatus::Optimal if record.best.is_none() => Err(DesignError::SolverFailed {
                 solver: self.solver.name(),
                 what: match invalid {
@@ -216,11 +278,10 @@ impl<M: MipSolver> Exact<M> {
                     None => "it has a proof, but no solution".to_owned(),
                 },
             }),
-            // Of a program that does not price all: the bound stands.
-            MipStatus::Optimal => Ok(Ended::Deadline),
-            MipStatus::Deadline => Ok(Ended::Deadline),
-            MipStatus::Cancelled if record.cancelled => Ok(Ended::Cancelled),
-            MipStatus::Cancelled => Ok(Ended::Deadline),
+            // Of a program that does not price all: its bound stands.
+            MipStatus::Optimal => Ok(Run::Settled),
+            MipStatus::Cancelled if record.cancelled => Ok(Run::Ended(Ended::Cancelled)),
+            MipStatus::Deadline | MipStatus::Cancelled => Ok(Run::Ended(Ended::Deadline)),
         }
     }
 }
