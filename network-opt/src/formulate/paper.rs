@@ -24,7 +24,9 @@
 //!
 //! The recursion (2) adds the first edge of a way and not the last, so D is the
 //! way of v_j to its sink only if all edges are of length 1. Given edges have
-//! half-edges, but their D is free of charge, as is their length.
+//! half-edges, but their D is free of charge, as is their length; those between
+//! two sinks have none. So the program of the paper's figure 2a has its 2241
+//! variables, those of equations 9 and 12 not counted.
 
 use super::draft::{Draft, Fill, Known, Term};
 use super::patterns::never;
@@ -58,6 +60,10 @@ pub(super) fn add(draft: &mut Draft<'_>) -> HalfEdges {
         z: Vec::new(),
     };
     for &e in &possible {
+        // A given edge from sink to sink needs nothing and leads nowhere.
+        if problem.is_given(e) && problem.ends[e].iter().all(|&v| problem.sinks[v]) {
+            continue;
+        }
         let cost = if problem.is_given(e) {
             0.0
         } else {
@@ -73,6 +79,9 @@ pub(super) fn add(draft: &mut Draft<'_>) -> HalfEdges {
     }
     for &e in &possible {
         for k in 0..2 {
+            if columns.active[e][k].is_none() {
+                continue;
+            }
             follow(draft, &mut columns, e, k, all);
         }
     }

@@ -94,6 +94,22 @@ pub trait MipSolver {
     ) -> Result<MipOutcome, DesignError>;
 }
 
+impl<M: MipSolver + ?Sized> MipSolver for &M {
+    fn name(&self) -> &'static str {
+        (**self).name()
+    }
+
+    fn solve(
+        &self,
+        program: &Program,
+        start: Option<&[f64]>,
+        limits: &Limits,
+        watch: &mut MipWatch<'_>,
+    ) -> Result<MipOutcome, DesignError> {
+        (**self).solve(program, start, limits, watch)
+    }
+}
+
 #[cfg(test)]
 pub(crate) mod tests {
     use super::Program;

@@ -5,9 +5,11 @@ use std::time::Duration;
 use crate::design::{Cost, Network, Problem};
 use crate::error::DesignError;
 
+mod conflicts;
 mod exact;
 mod record;
 
+pub use conflicts::{conflicts, Conflict, Constraints};
 pub use exact::Exact;
 
 /// How long to look, and how good is good enough.
