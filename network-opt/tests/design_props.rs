@@ -8,7 +8,7 @@ use network_opt::design::{
 };
 use network_opt::formulate::{longest_ways, prepare, Fate, Formulated, Formulation};
 use network_opt::geo_types::{coord, Coord};
-use network_opt::mip::{Microlp, MipSolver, MipStatus};
+use network_opt::mip::{Microlp, MipReply, MipSolver, MipStatus};
 use network_opt::solve::{Ended, Exact, Limits, NetworkSolver};
 use proptest::prelude::*;
 use proptest::sample::subsequence;
@@ -410,7 +410,7 @@ fn optimum(problem: &Problem, formulation: Formulation, solver: &impl MipSolver)
         ..Limits::default()
     };
     let found = solver
-        .solve(formulated.program(), None, &limits, &mut |_| true)
+        .solve(formulated.program(), None, &limits, &mut |_| MipReply::GoOn)
         .unwrap();
     if found.status == MipStatus::Infeasible {
         return None;

@@ -23,19 +23,22 @@ use serde_json::{json, Value};
 mod instance;
 
 const USAGE: &str = "solve_instance INSTANCE.json [--deadline SECONDS] [--threads N] [--gap PART] \
-    [--seed N] [--solver highs|rust] [--formulation recommended|flow|travel|single|paper] [--verbose]";
+    [--seed N] [--solver highs|windows|rust] [--formulation recommended|flow|travel|single|paper] [--window EDGES] \
+    [--verbose]";
 
 struct Arguments {
     path: String,
     limits: Limits,
     solver: Solver,
     formulation: Formulation,
+    window: usize,
     verbose: bool,
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 enum Solver {
     Highs,
+    Windows,
     Rust,
 }
 
@@ -79,7 +82,7 @@ fn run() -> Result<(), Box<dyn Error>> {
             &arguments.limits,
             &mut watch,
         )?,
-        Solver::Highs => with_highs(&problem, &arguments, &mut watch)?,
+        Solver::Highs | Solver::Windows => with_highs(&problem, &arguments, &mut watch)?,
     };
     println!("{}", report(&problem, &outcome)?);
     Ok(())
@@ -98,8 +101,21 @@ fn with_highs(
     arguments: &Arguments,
     watch: &mut dyn FnMut(&Progress<'_>) -> bool,
 ) -> Result<Outcome, Box<dyn Error>> {
-    let solver = exact(network_opt::mip::Highs, arguments);
-    Ok(solver.solve(problem, None, &arguments.limits, watch)?)
+    let (highs, limits) = (network_opt::mip::Highs, &arguments.limits);
+    Ok(if arguments.solver == Solver::Windows {
+        let windows = network_opt::solve::Windows {
+            size: arguments.window,
+            formulation: arguments.formulation,
+            ..network_opt::solve::Windows::new(highs)
+        };
+        windows.solve(problem, None, limits, watch)?
+    } else {
+        let race = network_opt::solve::Race {
+            exact: exact(highs, arguments),
+            ..network_opt::solve::Race::new(highs)
+        };
+        race.solve(problem, None, limits, watch)?
+    })
 }
 
 #[cfg(not(feature = "highs"))]
@@ -149,6 +165,7 @@ fn parse(mut given: impl Iterator<Item = String>) -> Result<Arguments, Box<dyn E
             Solver::Rust
         },
         formulation: Formulation::Recommended,
+        window: 90,
         verbose: false,
     };
     while let Some(argument) = given.next() {
@@ -165,10 +182,12 @@ fn parse(mut given: impl Iterator<Item = String>) -> Result<Arguments, Box<dyn E
             "--threads" => arguments.limits.threads = value()?.parse()?,
             "--gap" => arguments.limits.gap = value()?.parse()?,
             "--seed" => arguments.limits.seed = value()?.parse()?,
+            "--window" => arguments.window = value()?.parse()?,
             "--verbose" => arguments.verbose = true,
             "--solver" => {
                 arguments.solver = match value()?.as_str() {
                     "highs" => Solver::Highs,
+                    "windows" => Solver::Windows,
                     "rust" => Solver::Rust,
                     other => return Err(format!("no solver {other}\n{USAGE}").into()),
                 }

@@ -109,7 +109,7 @@ impl<'p> Formulated<'p> {
     /// ```
     /// use network_opt::design::{Network, Problem};
     /// use network_opt::formulate::{Formulated, Formulation};
-    /// use network_opt::mip::{Microlp, MipSolver};
+    /// use network_opt::mip::{Microlp, MipReply, MipSolver};
     ///
     /// // A square with the sink at vertex 0; vertex 2 has to be reached.
     /// let problem = Problem {
@@ -124,7 +124,8 @@ impl<'p> Formulated<'p> {
     ///     ..Problem::default()
     /// };
     /// let formulated = Formulated::new(&problem, Formulation::Recommended, None)?;
-    /// let found = Microlp.solve(formulated.program(), None, &Default::default(), &mut |_| true)?;
+    /// let (program, limits) = (formulated.program(), Default::default());
+    /// let found = Microlp.solve(program, None, &limits, &mut |_| MipReply::GoOn)?;
     /// let network = formulated.network(&found.solution.unwrap());
     /// assert_eq!(network.active, [true, true, false, false]);
     /// # Ok::<(), network_opt::DesignError>(())
@@ -268,6 +269,38 @@ impl<'p> Formulated<'p> {
     #[must_use]
     pub fn separate(&self, values: &[f64], tolerance: f64) -> Vec<Row> {
         (self.room_family()).map_or_else(Vec::new, |rooms| rooms.separate(values, tolerance))
+    }
+
+    /// The program with all edges as in `network` but those of which `free` says
+    /// true, and rooms as there but those with all their edges free.
+    ///
+    /// # Panics
+    ///
+    /// If `network` or `free` has not one entry an edge.
+    #[must_use]
+    pub fn window(&self, network: &Network, free: &[bool]) -> Program {
+        assert_eq!(network.active.len(), self.x.len(), "one entry an edge");
+        assert_eq!(free.len(), self.x.len(), "one entry an edge");
+        let mut program = self.program.clone();
+        for (e, x) in self.x.iter().enumerate() {
+            if let (Term::Column(column), false) = (*x, free[e]) {
+                let value = f64::from(u8::from(network.active[e]));
+                program.bound(column, value, value);
+            }
+        }
+        if let (Some(rooms), Some(placed)) = (self.room_family(), &self.problem.rooms) {
+            let is_free = placed.placements.iter().map(|placement| {
+                let mut edges = placement.inner.iter().chain(&placement.border);
+                edges.all(|&e| free[e])
+            });
+            for (k, is_free) in is_free.enumerate() {
+                if let (Some(column), false) = (rooms.column(k), is_free) {
+                    let value = f64::from(u8::from(network.rooms.contains(&k)));
+                    program.bound(column, value, value);
+                }
+            }
+        }
+        program
     }
 
     /// Whether there are any such rows.

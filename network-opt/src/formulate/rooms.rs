@@ -185,6 +185,14 @@ impl Rooms {
         rows
     }
 
+    /// The column of a placement, if it may be placed.
+    pub(super) fn column(&self, placement: usize) -> Option<usize> {
+        match self.r[placement] {
+            Term::Column(column) => Some(column),
+            Term::Off | Term::On => None,
+        }
+    }
+
     /// The rooms of a solution.
     pub(super) fn placed(&self, values: &[f64]) -> Vec<usize> {
         let placed = self.r.iter().enumerate().filter(|(_, r)| match r {

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use ::highs::{HighsModelStatus, Model, RowProblem, Sense, SolvedModel};
 
-use super::{MipOutcome, MipProgress, MipSolver, MipStatus, MipWatch, Program};
+use super::{MipOutcome, MipProgress, MipReply, MipSolver, MipStatus, MipWatch, Program};
 use crate::error::DesignError;
 use crate::solve::Limits;
 
@@ -63,6 +63,7 @@ impl MipSolver for Highs {
                 what: format!("a program with {largest} factors is too large for HiGHS"),
             });
         }
+        let columns = program.columns().len();
         let shared = Arc::new(Shared::default());
         let (program, start) = (program.clone(), start.map(<[f64]>::to_vec));
         let (theirs, limits) = (Arc::clone(&shared), limits.clone());
@@ -105,18 +106,23 @@ impl MipSolver for Highs {
                 }
                 continue;
             }
-            let go_on = watch(&MipProgress {
+            let reply = watch(&MipProgress {
                 elapsed: now - began,
                 best: news.best.as_deref(),
                 improved: news.improved,
                 bound: news.bound,
             });
             let late = deadline.is_some_and(|deadline| now - began >= deadline);
-            if !go_on || late {
-                let why = if go_on {
-                    MipStatus::Deadline
-                } else {
+            let no = reply == MipReply::Stop;
+            match reply {
+                MipReply::Try(values) if values.len() == columns => shared.suggest(values),
+                _ => {}
+            }
+            if no || late {
+                let why = if no {
                     MipStatus::Cancelled
+                } else {
+                    MipStatus::Deadline
                 };
                 stopped = Some((why, now));
                 shared.stop();
@@ -263,7 +269,7 @@ mod tests {
                 &an_infeasible_program(),
                 None,
                 &Limits::default(),
-                &mut |_| true,
+                &mut |_| MipReply::GoOn,
             )
             .expect("solved");
         assert_eq!(none.status, MipStatus::Infeasible);
@@ -273,7 +279,9 @@ mod tests {
     fn a_relaxation_is_a_lower_bound() {
         let (program, best) = knapsack(10);
         let found = Highs
-            .solve(&program.relaxed(), None, &Limits::default(), &mut |_| true)
+            .solve(&program.relaxed(), None, &Limits::default(), &mut |_| {
+                MipReply::GoOn
+            })
             .expect("solved");
         assert_eq!(found.status, MipStatus::Optimal);
         assert!(found.objective <= best + 1e-6);
@@ -309,10 +317,11 @@ mod tests {
         let found = Highs
             .solve(&program, None, &Limits::default(), &mut |progress| {
                 let go_on = progress.elapsed < Duration::from_millis(60);
-                if !go_on {
-                    told = Some(Instant::now());
+                if go_on {
+                    return MipReply::GoOn;
                 }
-                go_on
+                told = Some(Instant::now());
+                MipReply::Stop
             })
             .expect("no failure");
         // If it was not done before, it stopped soon.
@@ -328,7 +337,7 @@ mod tests {
             ..Limits::default()
         };
         let found = Highs
-            .solve(&program, None, &limits, &mut |_| true)
+            .solve(&program, None, &limits, &mut |_| MipReply::GoOn)
             .expect("no failure");
         assert!(found.bound <= 1.0 + 1e-6);
         assert!(began.elapsed() < Duration::from_millis(100 + 500 + 260));

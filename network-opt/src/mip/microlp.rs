@@ -7,7 +7,7 @@ use ::microlp::{
     SolveOutcome, TerminationReason, Variable,
 };
 
-use super::{MipOutcome, MipProgress, MipSolver, MipStatus, MipWatch, Program};
+use super::{MipOutcome, MipProgress, MipReply, MipSolver, MipStatus, MipWatch, Program};
 use crate::error::DesignError;
 use crate::solve::Limits;
 
@@ -97,15 +97,15 @@ impl MipSolver for Microlp {
                 }
             };
             let status = ended.or_else(|| {
-                let go_on = watch(&MipProgress {
+                let reply = watch(&MipProgress {
                     elapsed: began.elapsed(),
                     best: best.as_ref().map(|(_, values)| values.as_slice()),
                     improved,
                     bound,
                 });
-                match go_on {
-                    false => Some(MipStatus::Cancelled),
-                    true => slice().is_zero().then_some(MipStatus::Deadline),
+                match reply {
+                    MipReply::Stop => Some(MipStatus::Cancelled),
+                    _ => slice().is_zero().then_some(MipStatus::Deadline),
                 }
             });
             if let Some(status) = status {
@@ -184,7 +184,7 @@ mod tests {
     fn small_programs_are_solved() {
         let (program, best) = knapsack(8);
         let found = Microlp
-            .solve(&program, None, &Limits::default(), &mut |_| true)
+            .solve(&program, None, &Limits::default(), &mut |_| MipReply::GoOn)
             .expect("solved");
         assert_eq!(found.status, MipStatus::Optimal);
         assert!((found.objective - best).abs() < 1e-6, "{found:?}");
@@ -194,7 +194,7 @@ mod tests {
                 &an_infeasible_program(),
                 None,
                 &Limits::default(),
-                &mut |_| true,
+                &mut |_| MipReply::GoOn,
             )
             .expect("solved");
         assert_eq!(none.status, MipStatus::Infeasible);
@@ -205,7 +205,7 @@ mod tests {
         let mut program = Program::default();
         let many = program.binary(1.0);
         program.bound(many, 0.0, 1e12);
-        let found = Microlp.solve(&program, None, &Limits::default(), &mut |_| true);
+        let found = Microlp.solve(&program, None, &Limits::default(), &mut |_| MipReply::GoOn);
         assert!(matches!(found, Err(DesignError::SolverFailed { .. })));
     }
 }

@@ -34,8 +34,30 @@ pub struct MipProgress<'a> {
     pub bound: f64,
 }
 
+/// What a watch answers.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MipReply {
+    /// Go on.
+    GoOn,
+    /// Go on, with this solution that was found elsewhere. A solver may ignore it.
+    Try(Vec<f64>),
+    /// Stop, and give what there is.
+    Stop,
+}
+
+impl From<bool> for MipReply {
+    /// Whether to go on.
+    fn from(go_on: bool) -> Self {
+        if go_on {
+            Self::GoOn
+        } else {
+            Self::Stop
+        }
+    }
+}
+
 /// Is told of progress, and answers whether to go on.
-pub type MipWatch<'w> = dyn FnMut(&MipProgress<'_>) -> bool + 'w;
+pub type MipWatch<'w> = dyn FnMut(&MipProgress<'_>) -> MipReply + 'w;
 
 /// Why a solver of programs stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

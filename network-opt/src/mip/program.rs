@@ -29,13 +29,13 @@ pub struct Row {
 /// # Examples
 ///
 /// ```
-/// use network_opt::mip::{Microlp, MipSolver, Program};
+/// use network_opt::mip::{Microlp, MipReply, MipSolver, Program};
 ///
 /// // Two things of weight 3 and 2, worth 5 and 3, in a bag that holds 4.
 /// let mut bag = Program::default();
 /// let things = [bag.binary(-5.0), bag.binary(-3.0)];
 /// bag.row(f64::NEG_INFINITY, 4.0, [(things[0], 3.0), (things[1], 2.0)]);
-/// let found = Microlp.solve(&bag, None, &Default::default(), &mut |_| true)?;
+/// let found = Microlp.solve(&bag, None, &Default::default(), &mut |_| MipReply::GoOn)?;
 /// assert_eq!(found.solution, Some(vec![1.0, 0.0]));
 /// # Ok::<(), network_opt::DesignError>(())
 /// ```

@@ -1,11 +1,11 @@
 //! The exact solver: an integer program, solved to proof if time allows.
 
-use super::record::Record;
+use super::record::{Pool, Record};
 use super::{Ended, Limits, NetworkSolver, Outcome, Watch};
 use crate::design::{verify, Network, Problem};
 use crate::error::DesignError;
 use crate::formulate::{longest_ways, Formulated, Formulation};
-use crate::mip::{MipProgress, MipSolver, MipStatus};
+use crate::mip::{MipProgress, MipReply, MipSolver, MipStatus};
 
 /// Solves problems as integer programs.
 ///
@@ -69,8 +69,25 @@ impl<M: MipSolver> NetworkSolver for Exact<M> {
         limits: &Limits,
         watch: &mut Watch<'_>,
     ) -> Result<Outcome, DesignError> {
+        self.solve_in(problem, start, limits, watch, None)
+    }
+}
+
+impl<M: MipSolver> Exact<M> {
+    /// As [`NetworkSolver::solve`], beside other solvers that share a pool.
+    pub(super) fn solve_in(
+        &self,
+        problem: &Problem,
+        start: Option<&Network>,
+        limits: &Limits,
+        watch: &mut Watch<'_>,
+        pool: Option<&Pool>,
+    ) -> Result<Outcome, DesignError> {
         problem.check()?;
         let mut record = Record::new(problem, watch);
+        if let Some(pool) = pool {
+            record.share(pool);
+        }
         if let Some(network) = start {
             record.offer(network.clone());
         }
@@ -84,18 +101,11 @@ impl<M: MipSolver> NetworkSolver for Exact<M> {
         let mut longest = None;
         if formulation == Formulation::SingleSink {
             // Its bounds on ways are those of networks that cost no more than a
-            // known one, so that is found first, whatever it travels.
+            // known one, so that is found first.
             if record.best.is_none() {
-                let shortest = Problem {
-                    length_weight: problem.length_weight.max(1.0),
-                    travel_weight: 0.0,
-                    ..problem.clone()
-                };
-                let formulated = Formulated::new(&shortest, Formulation::Flow, None)?;
-                let left = record.left(limits);
-                let run = self.run(&formulated, &left, &mut record, Until::First)?;
+                let ended = self.first(limits, &mut record)?;
                 if record.best.is_none() {
-                    return Ok(record.outcome(run.ended()));
+                    return Ok(record.outcome(ended));
                 }
             }
             longest = (record.best.as_ref()).map(|(_, cost)| longest_ways(problem, cost.objective));
@@ -178,6 +188,26 @@ impl<M: MipSolver> Exact<M> {
         Ok(record.outcome(run.ended()))
     }
 
+    /// Looks for any network: the shortest, whatever it travels, is the easiest
+    /// to look for.
+    pub(super) fn first(
+        &self,
+        limits: &Limits,
+        record: &mut Record<'_, '_>,
+    ) -> Result<Ended, DesignError> {
+        let shortest = Problem {
+            length_weight: record.problem.length_weight.max(1.0),
+            travel_weight: 0.0,
+            ..record.problem.clone()
+        };
+        let formulated = Formulated::new(&shortest, Formulation::Flow, None)?;
+        if formulated.contradicts() {
+            return Ok(Ended::Infeasible);
+        }
+        let left = record.left(limits);
+        Ok(self.run(&formulated, &left, record, Until::First)?.ended())
+    }
+
     /// Adds cuts that solutions of the relaxation violate, in rounds, and takes
     /// its bound.
     fn tighten(
@@ -200,9 +230,9 @@ impl<M: MipSolver> Exact<M> {
                 deadline: budget.map(|budget| budget.saturating_sub(record.began.elapsed())),
                 ..limits.clone()
             };
-            let found = self
-                .solver
-                .solve(&relaxed, None, &limits, &mut |_| record.report(false))?;
+            let found = self.solver.solve(&relaxed, None, &limits, &mut |_| {
+                record.report(false).into()
+            })?;
             let (MipStatus::Optimal, Some(values)) = (found.status, &found.solution) else {
                 break;
             };
@@ -249,7 +279,14 @@ impl<M: MipSolver> Exact<M> {
                     Until::First => record.best.is_some(),
                     Until::Proof => record.is_within(limits.gap),
                 };
-                record.report(improved) && !enough
+                let received = record.receive();
+                if !record.report(improved || received) || enough {
+                    return MipReply::Stop;
+                }
+                match (received, &record.best) {
+                    (true, Some((network, _))) => MipReply::Try(formulated.solution(network)),
+                    _ => MipReply::GoOn,
+                }
             },
         )?;
         let mut invalid = None;

@@ -1,5 +1,6 @@
 //! The best network so far, and who is told of it.
 
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::{Ended, Limits, Outcome, Progress, Watch};
@@ -16,6 +17,20 @@ pub(super) struct Record<'p, 'w> {
     pub(super) cancelled: bool,
     first: Option<Duration>,
     watch: &'w mut Watch<'w>,
+    pool: Option<&'w Pool>,
+}
+
+/// The best network of several solvers that run side by side.
+#[derive(Debug, Default)]
+pub(super) struct Pool {
+    best: Mutex<Option<(Network, f64)>>,
+}
+
+impl Pool {
+    fn best(&self) -> MutexGuard<'_, Option<(Network, f64)>> {
+        // Nothing panics while it holds the lock.
+        self.best.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
 impl<'p, 'w> Record<'p, 'w> {
@@ -29,7 +44,28 @@ impl<'p, 'w> Record<'p, 'w> {
             cancelled: false,
             first: None,
             watch,
+            pool: None,
         }
+    }
+
+    /// Networks are shared with other solvers from now on.
+    pub(super) fn share(&mut self, pool: &'w Pool) {
+        self.pool = Some(pool);
+        self.receive();
+    }
+
+    /// Takes the network of another solver if it is better; says whether it is.
+    pub(super) fn receive(&mut self) -> bool {
+        let Some(pool) = self.pool else { return false };
+        let known = self
+            .best
+            .as_ref()
+            .map_or(f64::INFINITY, |(_, cost)| cost.objective);
+        let better = match pool.best().as_ref() {
+            Some((network, cost)) if *cost < known - 1e-9 => network.clone(),
+            _ => return false,
+        };
+        self.offer(better)
     }
 
     /// Keeps a network if it is valid and better; says whether it is.
@@ -44,6 +80,13 @@ impl<'p, 'w> Record<'p, 'w> {
             return false;
         }
         self.first.get_or_insert(self.began.elapsed());
+        if let Some(pool) = self.pool {
+            let mut shared = pool.best();
+            let known = shared.as_ref().map_or(f64::INFINITY, |(_, cost)| *cost);
+            if found.objective < known {
+                *shared = Some((network.clone(), found.objective));
+            }
+        }
         self.best = Some((network, found));
         true
     }

@@ -9,8 +9,9 @@ use std::time::Duration;
 
 use highs::{HighsStatus, Model, SolvedModel};
 use highs_sys::{
-    kHighsCallbackIpmInterrupt, kHighsCallbackMipImprovingSolution, kHighsCallbackMipInterrupt,
-    kHighsCallbackSimplexInterrupt, HighsCallbackDataIn, HighsCallbackDataOut, Highs_setCallback,
+    kHighsCallbackCallbackMipUserSolution, kHighsCallbackIpmInterrupt,
+    kHighsCallbackMipImprovingSolution, kHighsCallbackMipInterrupt, kHighsCallbackSimplexInterrupt,
+    HighsCallbackDataIn, HighsCallbackDataOut, Highs_setCallback, Highs_setCallbackSolution,
     Highs_startCallback, STATUS_OK,
 };
 
@@ -29,6 +30,8 @@ struct Told {
     version: u64,
     bound: f64,
     done: bool,
+    /// A solution from elsewhere that HiGHS has not seen yet.
+    suggested: Option<Vec<f64>>,
 }
 
 /// What HiGHS has told so far.
@@ -51,6 +54,7 @@ impl Default for Shared {
                 version: 0,
                 bound: f64::NEG_INFINITY,
                 done: false,
+                suggested: None,
             }),
             ended: Condvar::new(),
         }
@@ -61,6 +65,11 @@ impl Shared {
     /// Asks HiGHS to stop.
     pub(super) fn stop(&self) {
         self.stop.store(true, Ordering::Relaxed);
+    }
+
+    /// Hands HiGHS a solution that was found elsewhere.
+    pub(super) fn suggest(&self, values: Vec<f64>) {
+        self.told().suggested = Some(values);
     }
 
     /// HiGHS has answered.
@@ -132,6 +141,7 @@ pub(super) fn run_shared(mut model: Model, shared: &Shared) -> Result<SolvedMode
         kHighsCallbackMipInterrupt,
         kHighsCallbackSimplexInterrupt,
         kHighsCallbackIpmInterrupt,
+        kHighsCallbackCallbackMipUserSolution,
     ] {
         // SAFETY: the same live solver, which owns no reference to Rust's data
         // but the one above; `event` is one of HiGHS's own constants.
@@ -192,6 +202,19 @@ unsafe extern "C" fn on_event(
             if out.mip_dual_bound > told.bound && out.mip_dual_bound.is_finite() {
                 told.bound = out.mip_dual_bound;
             }
+        }
+        if event == kHighsCallbackCallbackMipUserSolution {
+            // Here HiGHS asks for solutions, and does not expect to be stopped.
+            let suggested = shared.told().suggested.take();
+            if let (Some(values), false) = (suggested, back.is_null()) {
+                if let Ok(len) = i32::try_from(values.len()) {
+                    // SAFETY: `back` is not null, so what HiGHS holds for this
+                    // call; it checks and copies `len` numbers, which `values`
+                    // has, before it returns, and refuses another length.
+                    unsafe { Highs_setCallbackSolution(back, len, values.as_ptr()) };
+                }
+            }
+            return;
         }
         // SAFETY: `back` is null or points to what HiGHS holds for this call,
         // and only this function writes to it.
