@@ -276,4 +276,24 @@ pub enum DesignError {
         /// What is wrong, and where.
         what: String,
     },
+    /// An option is out of its range.
+    #[error("an option is out of its range: {what}")]
+    BadOption {
+        /// Which, what it is, and what it may be.
+        what: String,
+    },
+    /// A solver, or this machine, has not the memory that a program needs.
+    #[error("out of memory: {what}; use a coarser mesh or fewer placements")]
+    OutOfMemory {
+        /// What needed it.
+        what: String,
+    },
+    /// A solver did not do what it should.
+    #[error("the solver {solver} failed: {what}")]
+    SolverFailed {
+        /// Its name.
+        solver: &'static str,
+        /// What it said.
+        what: String,
+    },
 }

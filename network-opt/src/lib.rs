@@ -4,7 +4,9 @@ pub use geo_types;
 
 pub mod design;
 mod error;
+pub mod formulate;
 pub mod mesh;
+pub mod mip;
 pub mod quad;
 mod quadratic;
 pub mod snake;

@@ -70,7 +70,9 @@ impl Instance {
         ];
         for (list, state) in marked {
             for &e in list {
-                *states.get_mut(e).ok_or("an edge that does not exist is named")? = state;
+                *states
+                    .get_mut(e)
+                    .ok_or("an edge that does not exist is named")? = state;
             }
         }
         let mean = (0..edges).map(|e| mesh.length(e)).sum::<f64>() / edges as f64;
@@ -84,7 +86,9 @@ impl Instance {
         });
         let mut sinks = vec![false; mesh.points().len()];
         for &v in &self.sinks {
-            *sinks.get_mut(v).ok_or("a sink that does not exist is named")? = true;
+            *sinks
+                .get_mut(v)
+                .ok_or("a sink that does not exist is named")? = true;
         }
         let rooms = (!self.rooms.is_empty()).then(|| Rooms {
             covered: (0..mesh.faces().len())
@@ -112,7 +116,10 @@ impl Instance {
         let mut add = |kind, mut active: Vec<usize>, cost: Option<f64>| {
             active.sort_unstable();
             // Listed once for each half-edge that sees it, and paid as often.
-            match patterns.iter_mut().find(|p| p.kind == kind && p.active == active) {
+            match patterns
+                .iter_mut()
+                .find(|p| p.kind == kind && p.active == active)
+            {
                 Some(known) => {
                     if let (Some(sum), Some(cost)) = (&mut known.cost, cost) {
                         *sum += cost;

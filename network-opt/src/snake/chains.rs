@@ -53,8 +53,12 @@ pub fn snakes(mesh: &Tessellation, active: &[bool], max_turn: f64) -> Vec<Snake>
     let mut found = Vec::new();
     // From the ends of snakes first, so that what is left are rings.
     let ends = (0..mesh.edges().len()).flat_map(|e| mesh.edges()[e].map(|v| (e, v)));
-    let open: Vec<(usize, usize)> = ends.filter(|&(e, v)| is_active(e) && partner(e, v).is_none()).collect();
-    let rings = (0..mesh.edges().len()).filter(|&e| is_active(e)).map(|e| (e, mesh.edges()[e][0]));
+    let open: Vec<(usize, usize)> = ends
+        .filter(|&(e, v)| is_active(e) && partner(e, v).is_none())
+        .collect();
+    let rings = (0..mesh.edges().len())
+        .filter(|&e| is_active(e))
+        .map(|e| (e, mesh.edges()[e][0]));
     for (e, v) in open.into_iter().chain(rings.collect::<Vec<_>>()) {
         if !used[e] {
             walk(mesh, (e, v), &partner, &mut used, &mut found);
@@ -71,7 +75,12 @@ fn partners(
 ) -> impl Fn(usize, usize) -> Option<usize> {
     let mut on: Vec<Vec<(usize, usize)>> = vec![Vec::new(); mesh.points().len()];
     for (v, on) in on.iter_mut().enumerate() {
-        let here: Vec<(usize, usize)> = mesh.around(v).iter().copied().filter(|&(e, _)| is_active(e)).collect();
+        let here: Vec<(usize, usize)> = mesh
+            .around(v)
+            .iter()
+            .copied()
+            .filter(|&(e, _)| is_active(e))
+            .collect();
         if let [(a, _), (b, _)] = here.as_slice() {
             on.push((*a, *b));
             continue;
@@ -87,7 +96,10 @@ fn partners(
         }
         pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
         for (_, a, b) in pairs {
-            if !on.iter().any(|&(c, d)| [c, d].contains(&a) || [c, d].contains(&b)) {
+            if !on
+                .iter()
+                .any(|&(c, d)| [c, d].contains(&a) || [c, d].contains(&b))
+            {
                 on.push((a, b));
             }
         }

@@ -76,7 +76,10 @@ impl SnakeOptions {
             return bad(format!("pieces is {}; give 1 to 64", self.pieces));
         }
         if !(0.0..=180.0).contains(&self.through_deg) {
-            return bad(format!("through_deg is {}; give degrees up to 180", self.through_deg));
+            return bad(format!(
+                "through_deg is {}; give degrees up to 180",
+                self.through_deg
+            ));
         }
         Ok(())
     }
@@ -108,7 +111,7 @@ pub struct SmoothNetwork {
 ///
 /// [`DesignError::BadOption`] for a number out of its range;
 /// [`DesignError::BadProblem`] if a list has not one entry an edge;
-/// [`DesignError::Solver`] if memory does not suffice.
+/// [`DesignError::OutOfMemory`] if memory does not suffice.
 ///
 /// # Complexity
 ///
@@ -249,9 +252,13 @@ impl Draft {
         let fixed = self.energy(snakes, options);
         let inert = (0..begin.len()).filter(|&p| vars[p] != Var::Fixed);
         let inertia: Vec<Term> = inert.map(|p| Term::one(1.0, p)).collect();
-        let all: Vec<Term> = fixed.iter().map(|t| t.0).chain(inertia.iter().copied()).collect();
-        let failed = || DesignError::Solver {
-            what: "there is not enough memory to smooth the network".to_owned(),
+        let all: Vec<Term> = fixed
+            .iter()
+            .map(|t| t.0)
+            .chain(inertia.iter().copied())
+            .collect();
+        let failed = || DesignError::OutOfMemory {
+            what: "smoothing a network".to_owned(),
         };
         let mut system = System::new(size, &vars, &all).ok_or_else(failed)?;
         let bounds = Bounds { low, high };
@@ -286,7 +293,9 @@ impl Draft {
                 let at = pair[1];
                 terms.push((Term::one(options.closeness, at), self.points[at]));
             }
-            let ring = snake.is_ring().then(|| [line[line.len() - 2], line[0], line[1]]);
+            let ring = snake
+                .is_ring()
+                .then(|| [line[line.len() - 2], line[0], line[1]]);
             let triples = line.windows(3).map(|t| [t[0], t[1], t[2]]);
             for [a, b, c] in triples.chain(ring) {
                 let bend = Term {

@@ -5,6 +5,17 @@ use std::time::Duration;
 use crate::design::{Cost, Network, Problem};
 use crate::error::DesignError;
 
+mod conflicts;
+mod exact;
+mod race;
+mod record;
+mod window;
+
+pub use conflicts::{conflicts, Conflict, Constraints};
+pub use exact::Exact;
+pub use race::Race;
+pub use window::Windows;
+
 /// How long to look, and how good is good enough.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
