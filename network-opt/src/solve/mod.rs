@@ -1,9 +1,13 @@
 //! Solvers of [`Problem`]s: what they are told, and what they answer.
 
+mod search;
+
 use std::time::Duration;
 
 use crate::design::{Cost, Network, Problem};
 use crate::error::DesignError;
+
+pub use search::Search;
 
 /// How long to look, and how good is good enough.
 #[derive(Clone, Debug, PartialEq)]
