@@ -19,6 +19,8 @@ pub(super) struct Manner {
     pub(super) breakthrough: f64,
     /// What covering one more row is worth.
     pub(super) reward: f64,
+    /// What a door for one more room is worth.
+    pub(super) opening: f64,
     /// Whether the path may only end where there is a way to a sink.
     pub(super) reached: bool,
     /// How much the ways at its end count.
@@ -119,6 +121,15 @@ impl Finder {
                     }
                 } else if manner.reward > 0.0 {
                     step -= manner.reward * state.gain(model, w) as f64;
+                }
+                if let Some(rooms) = model
+                    .rooms
+                    .as_ref()
+                    .filter(|_| !state.rooms.shut.is_empty())
+                {
+                    let opens = rooms.border_at.of(e).iter();
+                    step -= manner.opening
+                        * opens.filter(|&&p| state.rooms.shut.contains(p)).count() as f64;
                 }
                 if step.is_infinite() {
                     continue;

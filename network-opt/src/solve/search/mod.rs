@@ -7,6 +7,7 @@ mod model;
 mod moves;
 mod score;
 mod state;
+mod tiling;
 mod ways;
 
 use std::time::{Duration, Instant};

@@ -1,7 +1,7 @@
 //! What the search does to a network: each move changes the state by any
 //! number of logged steps, and whoever asked for it takes them back or not.
 
-use super::ears::{other, Finder, Manner};
+use super::ears::{Finder, Manner};
 use super::lists::Dice;
 use super::model::{Fate, Model};
 use super::score::Fines;
@@ -44,6 +44,18 @@ impl<'m, 'p> Walk<'m, 'p> {
         self.moves += 1;
         self.near.clear();
         let draw = self.dice.unit();
+        if !self.state.rooms.bare.is_empty() {
+            self.tile_bare();
+            return;
+        }
+        if let Some(room) = self.dice.pick(self.state.rooms.placed.items()) {
+            if self.dice.chance(0.3) {
+                let count = 2 + self.dice.below(4);
+                self.retile(room, count);
+                self.repair(2);
+                return;
+            }
+        }
         if self.state.removable.is_empty() || draw < 0.1 {
             self.repair(4);
             if self.near.is_empty() {
@@ -61,6 +73,9 @@ impl<'m, 'p> Walk<'m, 'p> {
             self.repair(8);
         } else if draw < 0.8 {
             self.toggle_cycle();
+            if self.model.rooms.is_some() {
+                self.repair(3);
+            }
         } else {
             self.force();
             self.repair(3);
@@ -75,6 +90,7 @@ impl<'m, 'p> Walk<'m, 'p> {
             breach,
             breakthrough: f64::INFINITY,
             reward: self.fines.rate(0) * self.dice.unit(),
+            opening: self.fines.rate(5) * self.dice.unit(),
             reached: false,
             pull: 3.0 * self.dice.unit(),
         }
@@ -218,7 +234,8 @@ impl<'m, 'p> Walk<'m, 'p> {
     fn force(&mut self) {
         let v = self.dice.below(self.model.problem.vertices);
         let breach = self.model.unit * [0.3, 1.0, 3.0][self.dice.below(3)];
-        let manner = self.manner(breach);
+        let mut manner = self.manner(breach);
+        manner.breakthrough = breach;
         if self.ear_through(v, &manner) {
             self.shove();
             self.drop_islands();
@@ -317,8 +334,15 @@ impl<'m, 'p> Walk<'m, 'p> {
                 }
             } else if let Some(route) = self.dice.pick(self.state.cut.items()) {
                 self.open_route(route)
+            } else if let Some(room) = self.dice.pick(self.state.rooms.crossed.items()) {
+                self.free_room(room)
             } else if let Some(room) = self.dice.pick(self.state.rooms.shut.items()) {
-                self.open_room(room, &manner)
+                if self.dice.chance(0.4) {
+                    let count = 2 + self.dice.below(4);
+                    self.retile(room, count)
+                } else {
+                    self.open_room(room, &manner)
+                }
             } else {
                 return self.join_island();
             };
@@ -370,6 +394,27 @@ impl<'m, 'p> Walk<'m, 'p> {
         }
     }
 
+    /// Takes the corridors out of a room: by other rooms in its place, or else
+    /// by removing them.
+    fn free_room(&mut self, room: usize) -> bool {
+        for _ in 0..2 {
+            let count = 2 + self.dice.below(4);
+            if self.retile(room, count) {
+                return true;
+            }
+        }
+        let Some(rooms) = &self.model.rooms else {
+            return false;
+        };
+        for &e in rooms.inners.of(room) {
+            if self.state.active[e] {
+                self.remove(e, !self.model.problem.dead_ends);
+            }
+        }
+        self.drop_islands();
+        true
+    }
+
     /// Joins an island to the rest.
     fn join_island(&mut self) {
         if self.ways.measure(self.model, &self.state).islands == 0 {
@@ -383,10 +428,5 @@ impl<'m, 'p> Walk<'m, 'p> {
             manner.reached = true;
             self.path_from(v, usize::MAX, &manner);
         }
-    }
-
-    /// The other end of an edge.
-    pub(super) fn across(&self, e: usize, v: usize) -> usize {
-        other(self.model.problem.ends[e], v)
     }
 }
