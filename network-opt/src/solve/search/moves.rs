@@ -61,6 +61,8 @@ impl<'m, 'p> Walk<'m, 'p> {
             if self.near.is_empty() {
                 self.extend();
             }
+        } else if draw < 0.12 {
+            self.flip();
         } else if draw < 0.2 {
             self.drop_chain();
         } else if draw < 0.5 {
@@ -79,6 +81,14 @@ impl<'m, 'p> Walk<'m, 'p> {
         } else {
             self.force();
             self.repair(3);
+        }
+    }
+
+    /// One edge alone, whatever that does: no network is out of reach.
+    fn flip(&mut self) {
+        let e = self.dice.below(self.model.problem.edges());
+        if self.model.fates[e] == Fate::Open {
+            self.add(e);
         }
     }
 
