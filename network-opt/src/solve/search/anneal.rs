@@ -53,8 +53,8 @@ impl<'m, 'p> Anneal<'m, 'p> {
     /// One move. Says whether a better network was found.
     pub(super) fn step(&mut self) -> bool {
         let share = self.done as f64 / self.cycle as f64;
-        // From a tenth of an edge's price to a hundredth.
-        let heat = self.hot * 0.6 * 0.05_f64.powf(share);
+        // From the price of an edge to a twentieth of it.
+        let heat = self.hot * 0.05_f64.powf(share);
         let mark = self.walk.state.mark();
         self.walk.step();
         let slack = -heat * (1.0 - self.walk.dice.unit()).ln();
@@ -73,7 +73,7 @@ impl<'m, 'p> Anneal<'m, 'p> {
         self.done += 1;
         if self.done == self.cycle {
             self.done = 0;
-            self.cycle += self.cycle / 2;
+            self.cycle *= 2;
             if self.walk.dice.chance(0.5) {
                 self.restart();
             }

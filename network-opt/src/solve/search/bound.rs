@@ -16,11 +16,13 @@
 //! makes any such weights a packing.
 
 use super::model::{Fate, Model};
-use super::rows::{rows, Row};
+use super::rows::{Quarry, Row};
 
 /// The approach of the best packing, step by step.
 #[derive(Debug)]
 pub(super) struct Bound {
+    /// Where rows come from, until there are no more.
+    quarry: Option<Quarry>,
     rows: Vec<Row>,
     costs: Vec<f64>,
     /// Load of each edge relative to its cost, and its price.
@@ -59,14 +61,13 @@ impl Bound {
             .filter(|&e| chosen(e))
             .map(|e| costs[e])
             .sum();
-        let mut rows = rows(model);
-        // A row with an edge that costs nothing is kept at no cost.
-        rows.retain(|row| row.terms.iter().all(|&(e, _)| costs[e] > 0.0));
         let prices = costs
             .iter()
             .map(|c| 1.0 / c.max(f64::MIN_POSITIVE))
             .collect();
-        let mut bound = Self {
+        Self {
+            quarry: Some(Quarry::new(model)),
+            rows: Vec::new(),
             loads: vec![0.0; costs.len()],
             prices,
             costs,
@@ -78,12 +79,24 @@ impl Bound {
             fixed,
             quantum: quantum(problem),
             steps: 0,
-            rows,
+        }
+    }
+
+    /// Looks for more rows. Says whether it did.
+    fn dig(&mut self, model: &Model<'_>) -> bool {
+        let Some(quarry) = &mut self.quarry else {
+            return false;
         };
-        bound.level = (0..bound.rows.len())
-            .map(|r| bound.worth(r))
-            .fold(f64::INFINITY, f64::min);
-        bound
+        if !quarry.dig(model) {
+            self.rows = std::mem::take(&mut quarry.rows);
+            self.quarry = None;
+            // One with an edge that costs nothing can be kept at no cost.
+            let costs = &self.costs;
+            (self.rows).retain(|row| row.terms.iter().all(|&(e, _)| costs[e] > 0.0));
+            let worths = (0..self.rows.len()).map(|r| self.worth(r));
+            self.level = worths.fold(f64::INFINITY, f64::min);
+        }
+        true
     }
 
     /// What a row costs for what it demands.
@@ -97,7 +110,10 @@ impl Bound {
     }
 
     /// Works on the bound for a moment. Gives the best so far.
-    pub(super) fn improve(&mut self) -> f64 {
+    pub(super) fn improve(&mut self, model: &Model<'_>) -> f64 {
+        if self.dig(model) {
+            return self.rounded(self.fixed);
+        }
         if self.steps < STEPS && !self.rows.is_empty() {
             for _ in 0..SLICE {
                 self.step();
@@ -170,5 +186,54 @@ fn quantum(problem: &crate::design::Problem) -> f64 {
         least
     } else {
         0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{EdgeState, Problem};
+
+    /// A path of three edges to the one place, of lengths 1, 2 and 4 from the
+    /// sink: every way has all three.
+    fn path(dead_ends: bool) -> Problem {
+        Problem {
+            vertices: 4,
+            ends: vec![[0, 1], [1, 2], [2, 3]],
+            lengths: vec![1.0, 2.0, 4.0],
+            states: vec![EdgeState::Open; 3],
+            sinks: vec![true, false, false, false],
+            coverage: vec![vec![3]],
+            dead_ends,
+            length_weight: 1.0,
+            travel_weight: 10.0,
+            ..Problem::default()
+        }
+    }
+
+    #[test]
+    fn a_path_is_bounded_by_itself() {
+        let problem = path(true);
+        let model = Model::new(&problem).expect("has a solution");
+        let mut bound = Bound::new(&model);
+        let mut value = 0.0;
+        for _ in 0..100 {
+            value = f64::max(value, bound.improve(&model));
+        }
+        // Nested neighbourhoods cut each edge once: 7 long, ways 0, 1 and 3.
+        assert!((value - (7.0 + 10.0 * 4.0)).abs() < 1e-6, "{value}");
+        assert!(Model::new(&path(false)).is_err());
+    }
+
+    #[test]
+    fn objectives_are_multiples_where_lengths_are_equal() {
+        let mut problem = path(true);
+        assert_eq!(quantum(&problem), 0.0);
+        problem.lengths = vec![0.5; 3];
+        assert_eq!(quantum(&problem), 0.5);
+        problem.length_weight = 0.3;
+        assert_eq!(quantum(&problem), 0.0);
+        problem.travel_weight = 0.6;
+        assert_eq!(quantum(&problem), 0.15);
     }
 }

@@ -101,6 +101,10 @@ impl Finder {
                 if state.active[e] || model.fates[e] == Fate::Off || w == from || w == besides {
                     continue;
                 }
+                // Every step costs something.
+                if self.round[w] == now && self.cost[w] <= gone {
+                    continue;
+                }
                 let stop = state.is_stop(model, w);
                 if stop && manner.reached && away[w].is_infinite() {
                     continue;
@@ -120,7 +124,7 @@ impl Finder {
                         step += manner.pull * problem.travel_weight * away[w];
                     }
                 } else if manner.reward > 0.0 {
-                    step -= manner.reward * state.gain(model, w) as f64;
+                    step -= manner.reward * state.gain(w) as f64;
                 }
                 if let Some(rooms) = model
                     .rooms
@@ -148,7 +152,8 @@ impl Finder {
 }
 
 /// What patterns cost that edge `e` would complete, together with the two
-/// edges of the path before it.
+/// edges of the path before it. Patterns of more than three edges are left to
+/// the fines.
 fn surcharge(
     model: &Model<'_>,
     state: &State,
@@ -157,22 +162,16 @@ fn surcharge(
     before: usize,
     breach: f64,
 ) -> f64 {
+    let on = |k: usize| state.active[k] || k == last || k == before;
     let mut sum = 0.0;
-    for &(p, wanted) in model.patterns_at.of(e) {
-        if !wanted || state.unmet[p] > 3 {
-            continue;
-        }
-        let mut left = state.unmet[p] - 1;
-        if left > 0 {
-            for &(k, on) in model.patterns.of(p) {
-                // Neither is active yet.
-                if on && (k == last || k == before) {
-                    left -= 1;
-                }
-            }
-        }
-        if left == 0 {
-            sum += model.pattern_costs[p].unwrap_or(breach);
+    for triple in model.triples.of(e) {
+        let [a, b] = triple.others;
+        if on(a) && on(b) && state.allows(model, triple.pattern) {
+            sum += if triple.cost.is_finite() {
+                triple.cost
+            } else {
+                breach
+            };
         }
     }
     sum

@@ -31,6 +31,8 @@ pub(super) struct Model<'p> {
     pub(super) pattern_costs: Vec<Option<f64>>,
     /// By edge, the patterns with its literal.
     pub(super) patterns_at: Lists<(usize, bool)>,
+    /// By edge, the patterns that it completes as part of a path.
+    pub(super) triples: Lists<Triple>,
     /// All paths of all routes, by their edges.
     pub(super) paths: Lists<usize>,
     pub(super) paths_at: Lists<usize>,
@@ -49,6 +51,17 @@ pub(super) struct Model<'p> {
     pub(super) cycles_at: Lists<usize>,
     /// What an average edge costs: the scale of penalties and temperatures.
     pub(super) unit: f64,
+}
+
+/// A pattern of at most three active edges, seen from one of them: it costs so
+/// much if the others are active too, those to be inactive left aside.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Triple {
+    /// The other edges; twice the same if there is only one.
+    pub(super) others: [usize; 2],
+    /// Infinite if it is forbidden.
+    pub(super) cost: f64,
+    pub(super) pattern: usize,
 }
 
 /// Rooms by edge and face.
@@ -90,6 +103,7 @@ impl<'p> Model<'p> {
         decide(problem, &around, &patterns, &pattern_costs, &mut fates)?;
         let usable = |v: usize| around.of(v).iter().any(|&(e, _)| fates[e] != Fate::Off);
         let settled = |v: usize| around.of(v).iter().any(|&(e, _)| fates[e] == Fate::On);
+        let triples = triples(&patterns, &pattern_costs, &fates);
         let mut rows: Vec<Vec<usize>> = problem.coverage.clone();
         rows.extend(problem.required_vertices.iter().map(|&v| vec![v]));
         rows.retain(|row| !row.iter().any(|&v| settled(v)));
@@ -159,6 +173,7 @@ impl<'p> Model<'p> {
             patterns,
             pattern_costs,
             patterns_at,
+            triples,
             paths,
             paths_at,
             route_of,
@@ -237,6 +252,34 @@ fn literals(problem: &Problem) -> (Lists<(usize, bool)>, Vec<Option<f64>>) {
         costs.push(pattern.cost);
     }
     (Lists::new(lists), costs)
+}
+
+/// The short patterns by edge, but those that cannot occur.
+fn triples(
+    patterns: &Lists<(usize, bool)>,
+    costs: &[Option<f64>],
+    fates: &[Fate],
+) -> Lists<Triple> {
+    let mut found = vec![Vec::new(); fates.len()];
+    for (pattern, cost) in costs.iter().enumerate() {
+        let list = patterns.of(pattern);
+        let never = |&(e, on): &(usize, bool)| fates[e] == if on { Fate::Off } else { Fate::On };
+        let active: Vec<usize> = list.iter().filter(|l| l.1).map(|l| l.0).collect();
+        if !(2..=3).contains(&active.len()) || list.iter().any(never) {
+            continue;
+        }
+        for &e in &active {
+            let mut others = active.iter().copied().filter(|&k| k != e);
+            if let Some(first) = others.next() {
+                found[e].push(Triple {
+                    others: [first, others.next().unwrap_or(first)],
+                    cost: cost.unwrap_or(f64::INFINITY),
+                    pattern,
+                });
+            }
+        }
+    }
+    Lists::new(found)
 }
 
 /// Draws conclusions from forbidden patterns of which one literal is left, and

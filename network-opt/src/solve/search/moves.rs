@@ -63,17 +63,17 @@ impl<'m, 'p> Walk<'m, 'p> {
             }
         } else if draw < 0.12 {
             self.flip();
-        } else if draw < 0.2 {
+        } else if draw < 0.27 {
             self.drop_chain();
-        } else if draw < 0.5 {
+        } else if draw < 0.57 {
             self.drop_chain();
             let rounds = 1 + self.dice.below(3);
             self.extend_near();
             self.repair(rounds);
-        } else if draw < 0.6 {
+        } else if draw < 0.62 {
             self.ruin();
             self.repair(8);
-        } else if draw < 0.8 {
+        } else if draw < 0.81 {
             self.toggle_cycle();
             if self.model.rooms.is_some() {
                 self.repair(3);
@@ -371,7 +371,7 @@ impl<'m, 'p> Walk<'m, 'p> {
         let mut best = None;
         for _ in 0..3 {
             let v = self.dice.pick(self.model.rows.of(row))?;
-            let gain = self.state.gain(self.model, v);
+            let gain = self.state.gain(v);
             if best.is_none_or(|(_, known)| gain > known) {
                 best = Some((v, gain));
             }
@@ -437,6 +437,156 @@ impl<'m, 'p> Walk<'m, 'p> {
             let mut manner = self.manner(f64::INFINITY);
             manner.reached = true;
             self.path_from(v, usize::MAX, &manner);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{
+        cost, verify, EdgeState, Network, Pattern, PatternKind, Placement, Problem, Rooms,
+    };
+    use crate::solve::search::score::Score;
+
+    /// A grid of four by four squares with a bit of everything.
+    fn mixed(rooms: bool) -> Problem {
+        let mut ends: Vec<[usize; 2]> = Vec::new();
+        ends.extend((0..25).filter(|v| v % 5 < 4).map(|v| [v, v + 1]));
+        ends.extend((0..20).map(|v| [v, v + 5]));
+        let at = |a: usize, b: usize| ends.iter().position(|&e| e == [a, b]).expect("an edge");
+        let corner = |f: usize| f / 4 * 5 + f % 4;
+        let sides = |f: usize| {
+            let v = corner(f);
+            [
+                at(v, v + 1),
+                at(v + 1, v + 6),
+                at(v + 5, v + 6),
+                at(v, v + 5),
+            ]
+        };
+        let pattern = |active: Vec<usize>, inactive: Vec<usize>, cost| Pattern {
+            kind: PatternKind::TooClose,
+            active,
+            inactive,
+            cost,
+        };
+        let mut patterns: Vec<Pattern> = (0..16)
+            .map(|f| {
+                pattern(
+                    vec![sides(f)[0], sides(f)[2]],
+                    vec![],
+                    (f % 2 == 0).then_some(0.7),
+                )
+            })
+            .collect();
+        patterns.push(pattern(
+            vec![at(6, 7), at(7, 8)],
+            vec![at(7, 12)],
+            Some(0.4),
+        ));
+        patterns.push(pattern(
+            vec![at(16, 17), at(11, 16), at(11, 12)],
+            vec![],
+            None,
+        ));
+        let mut states = vec![EdgeState::Open; 40];
+        states[at(0, 1)] = EdgeState::Given;
+        states[at(1, 2)] = EdgeState::Required;
+        states[at(18, 19)] = EdgeState::Closed;
+        let mut sinks = vec![false; 25];
+        sinks[0] = true;
+        sinks[24] = true;
+        // Single squares and pairs side by side.
+        let mut placements: Vec<Placement> = (0..16)
+            .map(|f| Placement {
+                template: "one".into(),
+                faces: vec![f],
+                inner: vec![],
+                border: sides(f).to_vec(),
+            })
+            .collect();
+        placements.extend((0..16).filter(|f| f % 4 < 3).map(|f| {
+            Placement {
+                template: "two".into(),
+                faces: vec![f, f + 1],
+                inner: vec![sides(f)[1]],
+                border: [sides(f).as_slice(), &sides(f + 1)]
+                    .concat()
+                    .into_iter()
+                    .filter(|&e| e != sides(f)[1])
+                    .collect(),
+            }
+        }));
+        Problem {
+            vertices: 25,
+            lengths: (0..40).map(|e| 1.0 + f64::from(e % 3)).collect(),
+            states,
+            sinks,
+            coverage: vec![vec![12], vec![3, 4, 9], vec![20, 21]],
+            required_vertices: vec![22],
+            routes: vec![vec![vec![at(2, 3), at(3, 8)], vec![at(2, 7), at(7, 8)]]],
+            patterns,
+            rooms: rooms.then(|| Rooms {
+                placements,
+                covered: vec![true; 16],
+            }),
+            length_weight: 1.0,
+            travel_weight: 0.5,
+            ends,
+            ..Problem::default()
+        }
+    }
+
+    /// After every move the counters say what the checker says, and a move
+    /// taken back leaves no trace.
+    #[test]
+    fn counters_agree_with_the_checker_after_every_move() {
+        for (rooms, dead_ends) in [(false, false), (false, true), (true, false), (true, true)] {
+            let mut problem = mixed(rooms);
+            problem.dead_ends = dead_ends;
+            problem.check().expect("fits together");
+            let model = Model::new(&problem).expect("no contradiction");
+            let mut walk = Walk::new(&model, 7);
+            let mut valid = 0;
+            for k in 0..3000 {
+                let before = (walk.state.active.clone(), walk.state.rooms.owner.clone());
+                let score = Score::of(&model, &walk.state, &mut walk.ways);
+                let mark = walk.state.mark();
+                walk.step();
+                let after = Score::of(&model, &walk.state, &mut walk.ways);
+                let mut placed = walk.state.rooms.placed.items().to_vec();
+                placed.sort_unstable();
+                let network = Network {
+                    active: walk.state.active.clone(),
+                    rooms: placed,
+                };
+                let found = verify(&problem, &network);
+                assert_eq!(
+                    after.is_valid(),
+                    found.is_empty(),
+                    "{:?} {found:?}",
+                    after.faults
+                );
+                if after.is_valid() {
+                    valid += 1;
+                    let cost = cost(&problem, &network.active).objective;
+                    // A few thousand additions of numbers below 100.
+                    assert!((cost - after.objective).abs() < 1e-9);
+                }
+                if k % 3 == 0 && walk.fines.total(&after) > walk.fines.total(&score) {
+                    walk.state.undo(&model, mark);
+                    let again = Score::of(&model, &walk.state, &mut walk.ways);
+                    assert_eq!(again.faults, score.faults);
+                    assert_eq!(
+                        before,
+                        (walk.state.active.clone(), walk.state.rooms.owner.clone())
+                    );
+                } else {
+                    walk.state.settle();
+                }
+            }
+            assert!(valid > 20, "{valid} with rooms {rooms}");
         }
     }
 }

@@ -47,42 +47,169 @@ pub(super) struct Row {
 
 /// How many rings of neighbours are put around a set.
 const RINGS: usize = 24;
+/// Terms of all rows together from which on no more rings are added.
+const TERMS: usize = 2_000_000;
 /// Steps of the enumeration of cycles for one set.
 const STEPS: usize = 20_000;
 
-/// All inequalities that are found.
-pub(super) fn rows(model: &Model<'_>) -> Vec<Row> {
-    let mut rows = Vec::new();
-    let anchored: Vec<bool> = (0..model.problem.vertices)
-        .map(|v| {
-            model
-                .around
-                .of(v)
-                .iter()
-                .any(|&(e, _)| model.fates[e] == Fate::On)
-        })
-        .collect();
-    let barrier: Vec<bool> = (0..model.problem.vertices)
-        .map(|v| anchored[v] || model.problem.sinks[v])
-        .collect();
-    for r in 0..model.rows.len() {
-        let set = model.rows.of(r);
-        let free = !set.iter().any(|&v| barrier[v]);
+/// Finds the inequalities a few at a time, since there are many.
+#[derive(Debug)]
+pub(super) struct Quarry {
+    /// Vertices around which no further ring may be put: sinks, and those of
+    /// edges that are active anyway.
+    barrier: Vec<bool>,
+    /// Rows, then faces, then edges that were dealt with.
+    at: usize,
+    terms: usize,
+    /// The row of all doors, as far as it is known.
+    doors: Row,
+    pub(super) rows: Vec<Row>,
+}
+
+impl Quarry {
+    pub(super) fn new(model: &Model<'_>) -> Self {
+        let settled = |v: usize| {
+            let mut around = model.around.of(v).iter();
+            around.any(|&(e, _)| model.fates[e] == Fate::On)
+        };
+        Self {
+            barrier: (0..model.problem.vertices)
+                .map(|v| model.problem.sinks[v] || settled(v))
+                .collect(),
+            at: 0,
+            terms: 0,
+            doors: Row {
+                terms: Vec::new(),
+                least: 0.0,
+            },
+            rows: Vec::new(),
+        }
+    }
+
+    /// Goes on for one place, face or edge. Says whether there are more.
+    pub(super) fn dig(&mut self, model: &Model<'_>) -> bool {
+        let places = model.rows.len();
+        let faces = model.problem.rooms.as_ref().map_or(0, |r| r.covered.len());
+        let edges = if faces > 0 { model.problem.edges() } else { 0 };
+        let at = self.at;
+        self.at += 1;
+        if at < places {
+            self.cover(model, model.rows.of(at));
+        } else if at < places + faces {
+            self.door(model, at - places);
+        } else if at < places + faces + edges {
+            self.doors(model, at - places - faces);
+        } else {
+            // Rounded up, but not by what sums of fractions are wrong.
+            let mut doors = self.doors.clone();
+            doors.least = (doors.least - 1e-9).ceil();
+            self.push(doors);
+            return false;
+        }
+        true
+    }
+
+    fn push(&mut self, row: Row) {
+        // One without edges says that there is no solution; that is not for a
+        // bound.
+        if row.least > 0.0 && !row.terms.is_empty() {
+            self.terms += row.terms.len();
+            self.rows.push(row);
+        }
+    }
+
+    /// The rows of a set of vertices of which one is active. None of them has
+    /// an edge that is active anyway, or the model had left the set out.
+    fn cover(&mut self, model: &Model<'_>, set: &[usize]) {
+        let free = !set.iter().any(|&v| self.barrier[v]);
         let twice = free && !model.problem.dead_ends;
-        // Rows with a vertex that is active anyway were left out of the model.
         let here = touching(model, set);
-        rows.push(even(here, if twice { 2.0 } else { 1.0 }));
+        self.push(even(here, if twice { 2.0 } else { 1.0 }));
         if free {
-            nested(model, set, &barrier, &mut rows);
+            self.nested(model, set);
             if twice {
+                let mut rows = Vec::new();
                 leave_twice(model, set, &mut rows);
+                rows.into_iter().for_each(|row| self.push(row));
             }
         }
     }
-    doors(model, &barrier, &mut rows);
-    // One without edges says that there is no solution; that is not for a bound.
-    rows.retain(|row| row.least > 0.0 && !row.terms.is_empty());
-    rows
+
+    /// Leave: for the set and its neighbourhoods, until they meet a barrier.
+    fn nested(&mut self, model: &Model<'_>, set: &[usize]) {
+        let mut inside = vec![false; model.problem.vertices];
+        set.iter().for_each(|&v| inside[v] = true);
+        let mut last = set.to_vec();
+        for _ in 0..RINGS {
+            let mut leaving = Vec::new();
+            let mut ring = Vec::new();
+            // Whatever leaves the union leaves its last ring.
+            for &v in &last {
+                for &(e, w) in model.around.of(v) {
+                    if model.fates[e] == Fate::Open && !inside[w] {
+                        leaving.push(e);
+                        ring.push(w);
+                    }
+                }
+            }
+            self.push(even(leaving, 1.0));
+            let stop = ring.is_empty() || ring.iter().any(|&v| self.barrier[v]);
+            if stop || self.terms > TERMS {
+                return;
+            }
+            ring.sort_unstable();
+            ring.dedup();
+            ring.iter().for_each(|&v| inside[v] = true);
+            last = ring;
+        }
+    }
+
+    /// Door: of the borders of what can cover a face.
+    fn door(&mut self, model: &Model<'_>, f: usize) {
+        let (Some(rooms), Some(spec)) = (&model.rooms, &model.problem.rooms) else {
+            return;
+        };
+        let usable: Vec<usize> = (rooms.at_face.of(f).iter().copied())
+            .filter(|&p| !rooms.barred[p])
+            .collect();
+        let most = usable.iter().map(|&p| rooms.faces.of(p).len()).max();
+        let Some(most) = most.filter(|_| spec.covered[f]) else {
+            return;
+        };
+        self.doors.least += 1.0 / most as f64;
+        let mut edges: Vec<usize> = (usable.iter())
+            .flat_map(|&p| rooms.borders.of(p))
+            .copied()
+            .collect();
+        edges.sort_unstable();
+        edges.dedup();
+        if edges.iter().any(|&e| model.fates[e] == Fate::On) {
+            return;
+        }
+        edges.retain(|&e| model.fates[e] == Fate::Open);
+        let mut ends: Vec<usize> = edges.iter().flat_map(|&e| model.problem.ends[e]).collect();
+        ends.sort_unstable();
+        ends.dedup();
+        self.push(even(edges, 1.0));
+        if !ends.iter().any(|&v| self.barrier[v]) {
+            self.nested(model, &ends);
+        }
+    }
+
+    /// Doors: what an edge contributes. Faces come first, so that `least` is
+    /// the number of rooms when it is reduced by edges that are active anyway;
+    /// those serve whole rooms, so rounding up may wait.
+    fn doors(&mut self, model: &Model<'_>, e: usize) {
+        let count = match model.fates[e] {
+            Fate::Off => 0,
+            Fate::On | Fate::Open => at_once(model, e),
+        };
+        if model.fates[e] == Fate::On {
+            self.doors.least -= count as f64;
+        } else if count > 0 {
+            self.doors.terms.push((e, count as f64));
+        }
+    }
 }
 
 fn even(edges: Vec<usize>, least: f64) -> Row {
@@ -102,35 +229,6 @@ fn touching(model: &Model<'_>, set: &[usize]) -> Vec<usize> {
     edges.sort_unstable();
     edges.dedup();
     edges
-}
-
-/// Leave: for the set and its neighbourhoods, until they meet a sink.
-fn nested(model: &Model<'_>, set: &[usize], barrier: &[bool], rows: &mut Vec<Row>) {
-    let mut inside = vec![false; model.problem.vertices];
-    let mut union = set.to_vec();
-    set.iter().for_each(|&v| inside[v] = true);
-    for _ in 0..RINGS {
-        let mut leaving = Vec::new();
-        let mut ring = Vec::new();
-        for &v in &union {
-            for &(e, w) in model.around.of(v) {
-                if model.fates[e] == Fate::Open && !inside[w] {
-                    leaving.push(e);
-                    ring.push(w);
-                }
-            }
-        }
-        rows.push(even(leaving, 1.0));
-        if ring.is_empty() || ring.iter().any(|&v| barrier[v]) {
-            return;
-        }
-        for v in ring {
-            if !inside[v] {
-                inside[v] = true;
-                union.push(v);
-            }
-        }
-    }
 }
 
 /// Leave twice: one row for each edge that meets all cycles, or one for a set
@@ -277,57 +375,6 @@ impl<'a> Cycles<'a> {
     }
 }
 
-/// Door and doors.
-fn doors(model: &Model<'_>, barrier: &[bool], rows: &mut Vec<Row>) {
-    let (Some(rooms), Some(spec)) = (&model.rooms, &model.problem.rooms) else {
-        return;
-    };
-    let mut count = 0.0;
-    for f in (0..spec.covered.len()).filter(|&f| spec.covered[f]) {
-        let usable: Vec<usize> = (rooms.at_face.of(f).iter().copied())
-            .filter(|&p| !rooms.barred[p])
-            .collect();
-        let Some(most) = usable.iter().map(|&p| rooms.faces.of(p).len()).max() else {
-            continue;
-        };
-        count += 1.0 / most as f64;
-        let mut edges: Vec<usize> = (usable.iter())
-            .flat_map(|&p| rooms.borders.of(p))
-            .copied()
-            .collect();
-        edges.sort_unstable();
-        edges.dedup();
-        if edges.iter().any(|&e| model.fates[e] == Fate::On) {
-            continue;
-        }
-        edges.retain(|&e| model.fates[e] == Fate::Open);
-        let mut ends: Vec<usize> = edges.iter().flat_map(|&e| model.problem.ends[e]).collect();
-        ends.sort_unstable();
-        ends.dedup();
-        rows.push(even(edges, 1.0));
-        if !ends.iter().any(|&v| barrier[v]) {
-            nested(model, &ends, barrier, rows);
-        }
-    }
-    // Rounded up, but not by what sums of fractions are wrong.
-    let mut row = Row {
-        terms: Vec::new(),
-        least: (count - 1e-9).ceil(),
-    };
-    for e in 0..model.problem.edges() {
-        if model.fates[e] == Fate::Off {
-            continue;
-        }
-        let at_once = at_once(model, e) as f64;
-        if model.fates[e] == Fate::On {
-            row.least -= at_once;
-        } else if at_once > 0.0 {
-            row.terms.push((e, at_once));
-        }
-    }
-    rows.push(row);
-}
-
 /// On the borders of how many rooms an edge can be at once.
 fn at_once(model: &Model<'_>, e: usize) -> usize {
     let Some(rooms) = &model.rooms else {
@@ -349,4 +396,121 @@ fn at_once(model: &Model<'_>, e: usize) -> usize {
         faces += 1;
     }
     faces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{verify, EdgeState, Network, Pattern, PatternKind, Problem};
+
+    /// Squares in rows of two, as many as told, and a diagonal in the first.
+    fn strip(rows: usize, sink: usize, dead_ends: bool, close: bool) -> Problem {
+        let n = 3 * (rows + 1);
+        let mut ends: Vec<[usize; 2]> = Vec::new();
+        ends.extend((0..n).filter(|v| v % 3 < 2).map(|v| [v, v + 1]));
+        ends.extend((0..n - 3).map(|v| [v, v + 3]));
+        ends.push([0, 4]);
+        let edges = ends.len();
+        let at = |a: usize, b: usize| ends.iter().position(|&e| e == [a, b]).expect("an edge");
+        let squares = (0..n - 3).filter(|v| v % 3 < 2);
+        let pairs = squares.flat_map(|v| {
+            [
+                [at(v, v + 1), at(v + 3, v + 4)],
+                [at(v, v + 3), at(v + 1, v + 4)],
+            ]
+        });
+        let patterns = (pairs.filter(|_| close))
+            .map(|pair| Pattern {
+                kind: PatternKind::TooClose,
+                active: pair.to_vec(),
+                inactive: vec![],
+                cost: None,
+            })
+            .collect();
+        let mut sinks = vec![false; n];
+        sinks[sink] = true;
+        let near = |v: usize| {
+            let mut ball: Vec<usize> = (ends.iter().filter(|e| e.contains(&v)).flatten())
+                .copied()
+                .collect();
+            ball.sort_unstable();
+            ball.dedup();
+            ball
+        };
+        Problem {
+            vertices: n,
+            coverage: (0..n).map(near).collect(),
+            lengths: vec![1.0; edges],
+            states: vec![EdgeState::Open; edges],
+            sinks,
+            dead_ends,
+            patterns,
+            length_weight: 1.0,
+            ends,
+            ..Problem::default()
+        }
+    }
+
+    /// Every row holds for every valid network, by listing all of them.
+    #[test]
+    fn rows_hold_for_all_valid_networks() {
+        let (mut rows_seen, mut networks) = (0, 0);
+        for (sink, dead_ends, close, state) in [
+            (0, false, false, EdgeState::Open),
+            (0, false, true, EdgeState::Open),
+            (4, true, true, EdgeState::Open),
+            (8, false, false, EdgeState::Required),
+            (6, true, false, EdgeState::Given),
+        ] {
+            let mut problem = strip(2, sink, dead_ends, close);
+            let last = problem.edges() - 2;
+            problem.states[last] = state;
+            if state == EdgeState::Given {
+                problem.sinks[problem.ends[last][0]] = true;
+            }
+            let Ok(model) = Model::new(&problem) else {
+                continue;
+            };
+            let mut quarry = Quarry::new(&model);
+            while quarry.dig(&model) {}
+            rows_seen += quarry.rows.len();
+            for set in 0..1_usize << problem.edges() {
+                let active: Vec<bool> = (0..problem.edges()).map(|e| set >> e & 1 == 1).collect();
+                let network = Network {
+                    active,
+                    rooms: vec![],
+                };
+                if !verify(&problem, &network).is_empty() {
+                    continue;
+                }
+                networks += 1;
+                for row in &quarry.rows {
+                    let terms = row.terms.iter().filter(|t| network.active[t.0]);
+                    let sum: f64 = terms.map(|t| t.1).sum();
+                    assert!(sum >= row.least, "{row:?} for {:?}", network.active);
+                }
+            }
+        }
+        assert!(rows_seen > 50 && networks > 100, "{rows_seen} {networks}");
+    }
+
+    #[test]
+    fn cycles_are_listed_once_each() {
+        // Ring of four with one chord: two triangles and the ring.
+        let problem = Problem {
+            vertices: 4,
+            ends: vec![[0, 1], [1, 2], [2, 3], [0, 3], [0, 2]],
+            lengths: vec![1.0; 5],
+            states: vec![EdgeState::Open; 5],
+            sinks: vec![true, false, false, false],
+            length_weight: 1.0,
+            ..Problem::default()
+        };
+        let model = Model::new(&problem).expect("has solutions");
+        let mut cycles = Cycles::of(&model, &[0, 1, 2, 3, 4]).expect("few");
+        cycles.iter_mut().for_each(|c| c.sort_unstable());
+        cycles.sort();
+        assert_eq!(cycles, [vec![0, 1, 2, 3], vec![0, 1, 4], vec![2, 3, 4]]);
+        assert_eq!(outside_forest(&model, &[0, 1, 2, 3, 4]), [3, 4]);
+    }
 }

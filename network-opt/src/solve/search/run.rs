@@ -173,7 +173,7 @@ impl Lead<'_> {
             // The bound begins after the first networks, and then goes along.
             if moves >= 200 && moves % 8 == 0 {
                 let bound = bound.get_or_insert_with(|| Bound::new(model));
-                self.outcome.bound = self.outcome.bound.max(bound.improve());
+                self.outcome.bound = self.outcome.bound.max(bound.improve(model));
             }
         }
     }

@@ -24,6 +24,8 @@ pub(super) struct State {
     /// Active vertices of each row, and rows with none.
     covers: Vec<usize>,
     pub(super) missing: Subset,
+    /// Of those, how many each vertex would cover.
+    gains: Vec<usize>,
     /// Dead ends where they are forbidden.
     pub(super) dead_ends: Subset,
     /// Literals of each pattern that do not hold.
@@ -76,6 +78,7 @@ impl State {
             charged: Subset::new(edges),
             covers: vec![0; model.rows.len()],
             missing: all(model.rows.len()),
+            gains: (0..vertices).map(|v| model.rows_at.of(v).len()).collect(),
             dead_ends: Subset::new(vertices),
             unmet: (0..model.patterns.len())
                 .map(|p| model.patterns.of(p).iter().filter(|l| l.1).count())
@@ -182,11 +185,13 @@ impl State {
                 self.covers[row] += 1;
                 if self.covers[row] == 1 {
                     self.missing.remove(row);
+                    model.rows.of(row).iter().for_each(|&v| self.gains[v] -= 1);
                 }
             } else {
                 self.covers[row] -= 1;
                 if self.covers[row] == 0 {
                     self.missing.insert(row);
+                    model.rows.of(row).iter().for_each(|&v| self.gains[v] += 1);
                 }
             }
         }
@@ -210,9 +215,13 @@ impl State {
     }
 
     /// Rows that a vertex would cover and that nothing covers.
-    pub(super) fn gain(&self, model: &Model<'_>, v: usize) -> usize {
-        let rows = model.rows_at.of(v).iter();
-        rows.filter(|&&row| self.covers[row] == 0).count()
+    pub(super) fn gain(&self, v: usize) -> usize {
+        self.gains[v]
+    }
+
+    /// Whether the edges that have to be inactive in a pattern are.
+    pub(super) fn allows(&self, model: &Model<'_>, pattern: usize) -> bool {
+        (model.patterns.of(pattern).iter()).all(|&(e, on)| on || !self.active[e])
     }
 
     /// Whether a path may end here: at a sink or an active vertex.

@@ -11,7 +11,7 @@ impl Walk<'_, '_> {
     /// has changed.
     pub(super) fn tile_bare(&mut self) -> bool {
         let bare = self.state.rooms.bare.items().to_vec();
-        let mut tries = TRIES.max(4 * bare.len());
+        let mut tries = TRIES + 2 * bare.len();
         self.tile(&bare, false, &mut tries)
     }
 
