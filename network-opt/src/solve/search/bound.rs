@@ -119,6 +119,9 @@ impl Bound {
                 self.step();
             }
             self.steps += SLICE;
+            if self.steps % (10 * SLICE) == 0 {
+                self.fill();
+            }
         }
         self.rounded(self.best + self.fixed)
     }
@@ -152,6 +155,25 @@ impl Bound {
             self.prices.iter_mut().for_each(|p| *p *= 1e-200);
             self.level *= 1e-200;
         }
+    }
+
+    /// Makes the weights a packing, and gives row after row what its edges can
+    /// still bear.
+    fn fill(&mut self) {
+        if self.heaviest == 0.0 {
+            return;
+        }
+        let mut value = self.value / self.heaviest;
+        let mut left: Vec<f64> = (self.costs.iter().zip(&self.loads))
+            .map(|(cost, load)| cost * (1.0 - load / self.heaviest).max(0.0))
+            .collect();
+        for row in &self.rows {
+            let room = |&(e, a): &(usize, f64)| left[e] / a;
+            let weight = row.terms.iter().map(room).fold(f64::INFINITY, f64::min);
+            row.terms.iter().for_each(|&(e, a)| left[e] -= a * weight);
+            value += weight * row.least;
+        }
+        self.best = self.best.max(value);
     }
 
     /// Up to the next value that an objective can have.
