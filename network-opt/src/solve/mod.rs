@@ -1,5 +1,7 @@
 //! Solvers of [`Problem`]s: what they are told, and what they answer.
 
+mod search;
+
 use std::time::Duration;
 
 use crate::design::{Cost, Network, Problem};
@@ -14,6 +16,7 @@ mod window;
 pub use conflicts::{conflicts, Conflict, Constraints};
 pub use exact::Exact;
 pub use race::Race;
+pub use search::Search;
 pub use window::Windows;
 
 /// How long to look, and how good is good enough.
