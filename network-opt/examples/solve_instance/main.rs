@@ -17,13 +17,13 @@ use std::time::Duration;
 use network_opt::design::{verify, Network, Problem};
 use network_opt::formulate::Formulation;
 use network_opt::mip::MipSolver;
-use network_opt::solve::{Exact, Limits, NetworkSolver, Outcome, Progress};
+use network_opt::solve::{Exact, Limits, NetworkSolver, Outcome, Progress, Search};
 use serde_json::{json, Value};
 
 mod instance;
 
 const USAGE: &str = "solve_instance INSTANCE.json [--deadline SECONDS] [--threads N] [--gap PART] \
-    [--seed N] [--solver highs|windows|rust] [--formulation recommended|flow|travel|single|paper] [--window EDGES] \
+    [--seed N] [--solver highs|windows|rust|microlp] [--formulation recommended|flow|travel|single|paper] [--window EDGES] \
     [--verbose]";
 
 struct Arguments {
@@ -40,6 +40,7 @@ enum Solver {
     Highs,
     Windows,
     Rust,
+    Microlp,
 }
 
 fn main() -> ExitCode {
@@ -75,8 +76,8 @@ fn run() -> Result<(), Box<dyn Error>> {
         true
     };
     let outcome = match arguments.solver {
-        // The search of its own joins here.
-        Solver::Rust => exact(network_opt::mip::Microlp, &arguments).solve(
+        Solver::Rust => Search::default().solve(&problem, None, &arguments.limits, &mut watch)?,
+        Solver::Microlp => exact(network_opt::mip::Microlp, &arguments).solve(
             &problem,
             None,
             &arguments.limits,
@@ -108,13 +109,13 @@ fn with_highs(
             formulation: arguments.formulation,
             ..network_opt::solve::Windows::new(highs)
         };
-        windows.solve(problem, None, limits, watch)?
+        network_opt::solve::Started::new(windows).solve(problem, None, limits, watch)?
     } else {
         let race = network_opt::solve::Race {
             exact: exact(highs, arguments),
             ..network_opt::solve::Race::new(highs)
         };
-        race.solve(problem, None, limits, watch)?
+        network_opt::solve::Started::new(race).solve(problem, None, limits, watch)?
     })
 }
 
@@ -189,6 +190,7 @@ fn parse(mut given: impl Iterator<Item = String>) -> Result<Arguments, Box<dyn E
                     "highs" => Solver::Highs,
                     "windows" => Solver::Windows,
                     "rust" => Solver::Rust,
+                    "microlp" => Solver::Microlp,
                     other => return Err(format!("no solver {other}\n{USAGE}").into()),
                 }
             }

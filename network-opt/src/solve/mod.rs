@@ -11,12 +11,14 @@ mod conflicts;
 mod exact;
 mod race;
 mod record;
+mod turns;
 mod window;
 
 pub use conflicts::{conflicts, Conflict, Constraints};
 pub use exact::Exact;
 pub use race::Race;
 pub use search::Search;
+pub use turns::Started;
 pub use window::Windows;
 
 /// How long to look, and how good is good enough.

@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 
 use super::record::Pool;
+use super::turns::in_turn;
 use super::{Ended, Exact, Limits, NetworkSolver, Outcome, Progress, Watch, Windows};
 use crate::design::{EdgeState, Network, Problem};
 use crate::error::DesignError;
@@ -113,34 +114,13 @@ impl<M: MipSolver + Sync> Race<M> {
         if open.count() < LARGE {
             return self.exact.solve(problem, start, limits, watch);
         }
-        let first = Limits {
-            deadline: limits.deadline.map(|deadline| deadline / 4),
-            ..limits.clone()
-        };
-        let found = self.windows.solve(problem, start, &first, watch)?;
-        if found.ended != Ended::Deadline {
-            return Ok(found);
+        match limits.deadline {
+            Some(deadline) => {
+                let first = (&self.windows as &dyn NetworkSolver, deadline / 4);
+                in_turn(first, &self.exact, problem, start, limits, watch)
+            }
+            None => self.exact.solve(problem, start, limits, watch),
         }
-        let spent = found.elapsed;
-        let rest = Limits {
-            deadline: limits
-                .deadline
-                .map(|deadline| deadline.saturating_sub(spent)),
-            ..limits.clone()
-        };
-        let mut later = |progress: &Progress<'_>| {
-            watch(&Progress {
-                elapsed: progress.elapsed + spent,
-                ..*progress
-            })
-        };
-        let best = found.network.as_ref().or(start);
-        let mut outcome = self.exact.solve(problem, best, &rest, &mut later)?;
-        outcome.elapsed += spent;
-        outcome.first_feasible = found
-            .first_feasible
-            .or(outcome.first_feasible.map(|first| first + spent));
-        Ok(outcome)
     }
 }
 
