@@ -119,7 +119,7 @@ impl Bound {
                 self.step();
             }
             self.steps += SLICE;
-            if self.steps % (10 * SLICE) == 0 {
+            if self.steps.is_multiple_of(10 * SLICE) {
                 self.fill();
             }
         }

@@ -317,10 +317,10 @@ impl<'a> Cycles<'a> {
             steps: 0,
             found: Vec::new(),
         };
-        for k in 0..edges.len() {
+        for (k, &first) in edges.iter().enumerate() {
             // Each cycle from its first edge on, one way around.
-            let [a, b] = model.problem.ends[edges[k]];
-            search.path.push(edges[k]);
+            let [a, b] = model.problem.ends[first];
+            search.path.push(first);
             search.visited.extend([a, b]);
             let whole = search.grow(k, b, a);
             search.path.clear();
