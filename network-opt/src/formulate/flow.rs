@@ -76,7 +76,7 @@ pub(super) fn add(draft: &mut Draft<'_>) -> Flow {
     let most = senders.len() as f64;
     let mut balance: Vec<Vec<(Term, f64)>> = vec![Vec::new(); group.len()];
     let mut along = vec![[None; 2]; draft.problem.edges()];
-    for e in 0..draft.problem.edges() {
+    for (e, columns) in along.iter_mut().enumerate() {
         let [a, b] = draft.problem.ends[e].map(|v| group[v]);
         if a == b || !draft.possible(e) {
             continue;
@@ -87,7 +87,7 @@ pub(super) fn add(draft: &mut Draft<'_>) -> Flow {
                 continue;
             }
             let column = draft.program.real(0.0, most);
-            along[e][k] = Some(column);
+            columns[k] = Some(column);
             let f = Term::Column(column);
             capacity.push((f, 1.0));
             balance[from].push((f, 1.0));

@@ -257,7 +257,7 @@ mod tests {
         for start in [None, Some(vec![0.0; 10])] {
             let found = Highs
                 .solve(&program, start.as_deref(), &Limits::default(), &mut |_| {
-                    true
+                    MipReply::GoOn
                 })
                 .expect("solved");
             assert_eq!(found.status, MipStatus::Optimal);
@@ -300,8 +300,8 @@ mod tests {
             let places = at[p].iter().chain([&out[p]]).map(|&c| (c, 1.0));
             program.row(1.0, f64::INFINITY, places);
             for q in 0..p {
-                for h in 0..n {
-                    program.row(f64::NEG_INFINITY, 1.0, [(at[p][h], 1.0), (at[q][h], 1.0)]);
+                for (&mine, &theirs) in at[p].iter().zip(&at[q]) {
+                    program.row(f64::NEG_INFINITY, 1.0, [(mine, 1.0), (theirs, 1.0)]);
                 }
             }
         }
@@ -313,7 +313,6 @@ mod tests {
         // Its own cliques would end the search at once if it were small.
         let program = pigeons(40);
         let mut told = None;
-        let began = Instant::now();
         let found = Highs
             .solve(&program, None, &Limits::default(), &mut |progress| {
                 let go_on = progress.elapsed < Duration::from_millis(60);
@@ -326,12 +325,14 @@ mod tests {
             .expect("no failure");
         // If it was not done before, it stopped soon.
         if let Some(told) = told {
-            assert!(told.elapsed() < Duration::from_millis(200));
+            // 0.15 s, and what a busy machine takes to wake a thread.
+            assert!(told.elapsed() < Duration::from_millis(500));
             assert!(matches!(
                 found.status,
                 MipStatus::Cancelled | MipStatus::Optimal
             ));
         }
+        let began = Instant::now();
         let limits = Limits {
             deadline: Some(Duration::from_millis(100)),
             ..Limits::default()
@@ -340,6 +341,6 @@ mod tests {
             .solve(&program, None, &limits, &mut |_| MipReply::GoOn)
             .expect("no failure");
         assert!(found.bound <= 1.0 + 1e-6);
-        assert!(began.elapsed() < Duration::from_millis(100 + 500 + 260));
+        assert!(began.elapsed() < Duration::from_millis(100 + 500));
     }
 }

@@ -157,11 +157,12 @@ impl<M: MipSolver> Windows<M> {
             if record.cancelled {
                 return Ok(Ended::Cancelled);
             }
-            if holds_all && formulated.formulation() != Formulation::Flow
-                || holds_all && problem.travel_weight == 0.0
-            {
-                if found.status == MipStatus::Optimal {
-                    record.raise(found.bound);
+            if holds_all {
+                // A flow does not price travel, so it proves nothing of it.
+                let prices =
+                    formulated.formulation() != Formulation::Flow || problem.travel_weight == 0.0;
+                if prices && found.status == MipStatus::Optimal {
+                    record.raise(program.rounded(found.bound));
                     return Ok(Ended::Proven);
                 }
                 return Ok(Ended::Deadline);
