@@ -132,7 +132,7 @@ fn straight_streets_stay_and_stairs_ease() {
     }
     // Right and up by turns, from one side to the other.
     let stair: Vec<usize> = (0..=12)
-        .map(|k| 2 * wide + (k + 1) / 2 + wide * (k / 2))
+        .map(|k| 2 * wide + k.div_ceil(2) + wide * (k / 2))
         .collect();
     let found = smooth(&mesh, &along(&stair), &none, &SnakeOptions::default()).unwrap();
     let (_, line) = &found.streets[0];
