@@ -131,7 +131,7 @@ fn straight_streets_stay_and_stairs_ease() {
         assert!(distance(p, q) < 1e-9);
     }
     // Right and up by turns, from one side to the other.
-    let stair: Vec<usize> = (0..=12)
+    let stair: Vec<usize> = (0..=12_usize)
         .map(|k| 2 * wide + k.div_ceil(2) + wide * (k / 2))
         .collect();
     let found = smooth(&mesh, &along(&stair), &none, &SnakeOptions::default()).unwrap();
