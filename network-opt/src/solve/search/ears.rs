@@ -192,3 +192,77 @@ fn scatter(key: u64) -> f64 {
     z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
     ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{EdgeState, Pattern, PatternKind, Problem};
+
+    /// Two ways from 0 to the sink 5: 0-1-5, and 0-2-3-5 which is longer.
+    fn fork() -> Problem {
+        let mut sinks = vec![false; 6];
+        sinks[5] = true;
+        Problem {
+            vertices: 6,
+            ends: vec![[0, 1], [1, 5], [0, 2], [2, 3], [3, 5], [0, 4]],
+            lengths: vec![1.0; 6],
+            states: vec![EdgeState::Open; 6],
+            sinks,
+            dead_ends: true,
+            coverage: vec![vec![2], vec![3]],
+            length_weight: 1.0,
+            ..Problem::default()
+        }
+    }
+
+    const PLAIN: Manner = Manner {
+        noise: 0.0,
+        salt: 0,
+        breach: f64::INFINITY,
+        breakthrough: f64::INFINITY,
+        reward: 0.0,
+        opening: 0.0,
+        reached: false,
+        pull: 0.0,
+    };
+
+    fn path(problem: &Problem, manner: &Manner) -> (Option<usize>, Vec<usize>) {
+        let model = Model::new(problem).expect("has solutions");
+        let state = State::new(&model);
+        let mut finder = Finder::new(&model);
+        let away = model.base.clone();
+        let end = finder.find(&model, &state, &away, 0, usize::MAX, manner);
+        (end, finder.path)
+    }
+
+    #[test]
+    fn ears_are_short_or_cover_much_or_keep_what_is_forbidden() {
+        let mut problem = fork();
+        assert_eq!(path(&problem, &PLAIN), (Some(5), vec![0, 1]));
+        // Two of its three edges are worth more than they cost; a tenth stays.
+        let covering = Manner {
+            reward: 1.5,
+            ..PLAIN
+        };
+        assert_eq!(path(&problem, &covering), (Some(5), vec![2, 3, 4]));
+        let pattern = |cost| Pattern {
+            kind: PatternKind::ZigZag,
+            active: vec![0, 1],
+            inactive: vec![],
+            cost,
+        };
+        problem.patterns = vec![pattern(None)];
+        assert_eq!(path(&problem, &PLAIN), (Some(5), vec![2, 3, 4]));
+        let forced = Manner {
+            breach: 0.5,
+            ..PLAIN
+        };
+        assert_eq!(path(&problem, &forced), (Some(5), vec![0, 1]));
+        problem.patterns = vec![pattern(Some(2.0))];
+        assert_eq!(path(&problem, &PLAIN), (Some(5), vec![2, 3, 4]));
+        // Nowhere to go.
+        problem.states = vec![EdgeState::Closed; 6];
+        problem.coverage.clear();
+        assert_eq!(path(&problem, &PLAIN), (None, vec![]));
+    }
+}

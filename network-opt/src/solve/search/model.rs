@@ -452,3 +452,76 @@ fn unit(problem: &Problem, fates: &[Fate], least: &[f64]) -> f64 {
         1.0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{Pattern, PatternKind};
+
+    /// A square with a diagonal 0-2 and a tail 3-4.
+    fn kite() -> Problem {
+        Problem {
+            vertices: 5,
+            ends: vec![[0, 1], [1, 2], [2, 3], [0, 3], [0, 2], [3, 4]],
+            lengths: vec![1.0; 6],
+            states: vec![EdgeState::Open; 6],
+            sinks: vec![true, false, false, false, false],
+            length_weight: 1.0,
+            ..Problem::default()
+        }
+    }
+
+    fn never(active: Vec<usize>, inactive: Vec<usize>) -> Pattern {
+        Pattern {
+            kind: PatternKind::Branch,
+            active,
+            inactive,
+            cost: None,
+        }
+    }
+
+    #[test]
+    fn conclusions_go_on_as_far_as_they_lead() {
+        let mut problem = kite();
+        // The tail is a dead end; with 0-1 required 0-2 may not be, so 2-3
+        // must, and 1-2 has to go on from 1 but is not concluded.
+        problem.states[0] = EdgeState::Required;
+        problem.patterns = vec![never(vec![0, 4], vec![]), never(vec![0], vec![4, 2])];
+        let model = Model::new(&problem).expect("no contradiction");
+        use Fate::{Off, On, Open};
+        assert_eq!(model.fates, [On, Open, On, Open, Off, Off]);
+        problem.patterns.push(never(vec![0, 2], vec![]));
+        assert_eq!(Model::new(&problem).err(), Some(Hopeless));
+        // Nothing covers the end of the tail without a dead end.
+        let mut problem = kite();
+        problem.coverage = vec![vec![4]];
+        assert_eq!(Model::new(&problem).err(), Some(Hopeless));
+        problem.dead_ends = true;
+        assert!(Model::new(&problem).is_ok());
+    }
+
+    #[test]
+    fn rows_that_follow_from_others_are_left_out() {
+        let rows = vec![
+            vec![1, 2, 3],
+            vec![2, 3],
+            vec![0, 4],
+            vec![2, 3],
+            vec![0, 1, 2],
+        ];
+        assert_eq!(
+            undominated(rows, 5),
+            [vec![0, 4], vec![2, 3], vec![0, 1, 2]]
+        );
+    }
+
+    #[test]
+    fn short_cycles_are_found_once() {
+        let problem = kite();
+        let around = Lists::new(problem.around());
+        let found = cycles(&problem, &around, &[Fate::Open; 6]);
+        let found: Vec<&[usize]> = (0..found.len()).map(|k| found.of(k)).collect();
+        assert_eq!(found, [&[0, 1, 2, 3][..], &[0, 1, 4], &[2, 3, 4]]);
+        assert_eq!(cycles(&problem, &around, &[Fate::Off; 6]).len(), 0);
+    }
+}

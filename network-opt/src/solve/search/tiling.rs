@@ -107,3 +107,78 @@ impl Walk<'_, '_> {
         false
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{EdgeState, Placement, Problem, Rooms};
+    use crate::solve::search::model::Model;
+
+    /// A row of eight squares and rooms of so many of them in a row; the edges
+    /// across it are 0 to 8, above 9 to 16, below 17 to 24.
+    fn corridor(widths: &[usize]) -> Problem {
+        let mut ends: Vec<[usize; 2]> = (0..9).map(|k| [k, k + 9]).collect();
+        ends.extend((0..8).map(|k| [k + 9, k + 10]));
+        ends.extend((0..8).map(|k| [k, k + 1]));
+        let placements = (widths.iter())
+            .flat_map(|&w| (0..=8 - w).map(move |at| (at, w)))
+            .map(|(at, w)| Placement {
+                template: "room".into(),
+                faces: (at..at + w).collect(),
+                inner: (at + 1..at + w).collect(),
+                border: [at, at + w]
+                    .into_iter()
+                    .chain((at..at + w).flat_map(|k| [9 + k, 17 + k]))
+                    .collect(),
+            });
+        let mut sinks = vec![false; 18];
+        sinks[0] = true;
+        Problem {
+            vertices: 18,
+            lengths: vec![1.0; 25],
+            states: vec![EdgeState::Open; 25],
+            sinks,
+            rooms: Some(Rooms {
+                placements: placements.collect(),
+                covered: vec![true; 8],
+            }),
+            length_weight: 1.0,
+            ends,
+            ..Problem::default()
+        }
+    }
+
+    #[test]
+    fn bare_faces_are_tiled_if_they_can_be() {
+        for (widths, possible) in [
+            (&[3, 5][..], true),
+            (&[2], true),
+            (&[3], false),
+            (&[5], false),
+        ] {
+            let problem = corridor(widths);
+            let model = Model::new(&problem).expect("no contradiction");
+            let mut walk = Walk::new(&model, 0);
+            assert_eq!(walk.tile_bare(), possible, "{widths:?}");
+            assert_eq!(walk.state.rooms.bare.len(), if possible { 0 } else { 8 });
+        }
+    }
+
+    #[test]
+    fn new_tilings_keep_out_of_corridors() {
+        let problem = corridor(&[1, 2, 3]);
+        let model = Model::new(&problem).expect("no contradiction");
+        let mut walk = Walk::new(&model, 3);
+        assert!(walk.tile_bare());
+        walk.state.flip(&model, 4);
+        for _ in 0..100 {
+            if let Some(room) = walk.dice.pick(walk.state.rooms.placed.items()) {
+                walk.retile(room, 3);
+            }
+            assert!(walk.state.rooms.bare.is_empty());
+        }
+        // Edge 4 lies between the fourth and the fifth square.
+        assert_ne!(walk.state.rooms.owner[3], walk.state.rooms.owner[4]);
+        assert!(walk.state.rooms.crossed.is_empty());
+    }
+}

@@ -80,3 +80,62 @@ impl Ways {
         travel
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{cost, distances, EdgeState, Problem};
+    use crate::solve::search::lists::Dice;
+
+    /// A ring of twelve with chords, some of it given, one stray given edge.
+    fn ring() -> Problem {
+        let mut ends: Vec<[usize; 2]> = (0..12).map(|v| [v, (v + 1) % 12]).collect();
+        ends.extend([[0, 5], [2, 8], [3, 10]]);
+        let mut states = vec![EdgeState::Open; 15];
+        states[0] = EdgeState::Given;
+        states[1] = EdgeState::Given;
+        states[7] = EdgeState::Given;
+        let mut sinks = vec![false; 12];
+        sinks[0] = true;
+        sinks[6] = true;
+        Problem {
+            vertices: 12,
+            lengths: (0..15).map(|e| 1.0 + f64::from(e % 4)).collect(),
+            states,
+            sinks,
+            dead_ends: true,
+            length_weight: 1.0,
+            travel_weight: 1.0,
+            ends,
+            ..Problem::default()
+        }
+    }
+
+    #[test]
+    fn ways_are_those_of_the_checker() {
+        let problem = ring();
+        let model = Model::new(&problem).expect("has solutions");
+        let mut state = State::new(&model);
+        let mut ways = Ways::new(&model);
+        let mut dice = Dice::new(1);
+        let mut islands = 0;
+        for _ in 0..500 {
+            let e = dice.below(15);
+            if model.fates[e] == crate::solve::search::model::Fate::Open {
+                state.flip(&model, e);
+            }
+            let travel = ways.measure(&model, &state);
+            // Whole numbers: no rounding anywhere.
+            assert_eq!(ways.away, distances(&problem, &state.active));
+            if travel.islands == 0 {
+                assert_eq!(travel.sum, cost(&problem, &state.active).travel);
+            } else {
+                islands += 1;
+                let lost = (0..15).filter(|&e| state.active[e]);
+                let lost = lost.filter(|&e| ways.away[problem.ends[e][0]].is_infinite());
+                assert_eq!(travel.islands, lost.count());
+            }
+        }
+        assert!((50..450).contains(&islands), "{islands}");
+    }
+}
