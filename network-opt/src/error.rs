@@ -260,14 +260,40 @@ pub enum OptimizeError {
     Cancelled,
 }
 
-/// Why a network could not be designed by an integer program.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+/// Why a network could not be designed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum NetworkError {
-    /// This version of the crate has no integer programs.
-    #[error("network design by integer programs is not available in version {version} of network-opt; split by streamlines or templates instead")]
-    NotAvailable {
-        /// The version of this crate.
-        version: &'static str,
+pub enum DesignError {
+    /// The mesh is none.
+    #[error("the mesh is not a polygonal mesh: {what}")]
+    BadMesh {
+        /// What is wrong, and where.
+        what: String,
+    },
+    /// The lists of a problem do not fit together.
+    #[error("the problem does not fit together: {what}")]
+    BadProblem {
+        /// What is wrong, and where.
+        what: String,
+    },
+    /// An option is out of its range.
+    #[error("an option is out of its range: {what}")]
+    BadOption {
+        /// Which, what it is, and what it may be.
+        what: String,
+    },
+    /// A solver, or this machine, has not the memory that a program needs.
+    #[error("out of memory: {what}; use a coarser mesh or fewer placements")]
+    OutOfMemory {
+        /// What needed it.
+        what: String,
+    },
+    /// A solver did not do what it should.
+    #[error("the solver {solver} failed: {what}")]
+    SolverFailed {
+        /// Its name.
+        solver: &'static str,
+        /// What it said.
+        what: String,
     },
 }

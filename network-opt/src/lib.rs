@@ -4,10 +4,16 @@ pub use geo_types;
 
 pub mod design;
 mod error;
+pub mod formulate;
 pub mod mesh;
+pub mod mip;
+pub mod quad;
+mod quadratic;
+pub mod snake;
+pub mod solve;
 pub mod strip;
 
-pub use error::{MeshError, MeshFault, NetworkError, OptimizeError};
+pub use error::{DesignError, MeshError, MeshFault, OptimizeError};
 pub use mesh::{End, FaceId, HalfEdgeId, Locator, PlanarMesh, Split, VertexId, Wire};
 pub use strip::{
     collapse_short_edges, optimize, roads, streets, Block, Energy, Fairness, Freedom,

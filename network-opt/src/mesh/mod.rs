@@ -12,7 +12,7 @@ mod arrange;
 mod build;
 mod check;
 mod edit;
-mod index;
+pub(crate) mod index;
 mod locate;
 mod path;
 mod planar;

@@ -2,18 +2,16 @@
 //!
 //! In the order of the data: `short` collapses short edges, `roads` finds the
 //! chains whose fairness counts, `target` says where a block's vertices would like to be, `rails` where a
-//! sliding junction may go, `system` is the energy and its sparse matrix,
-//! `factor` solves it, `guard` keeps faces from turning inside out, `optimize`
-//! is the loop over `options`.
+//! sliding junction may go, `guard` keeps faces from turning inside out,
+//! `optimize` is the loop over `options`; `quadratic` has the energy and its
+//! sparse matrix.
 
-mod factor;
 mod guard;
 mod optimize;
 mod options;
 mod rails;
 mod roads;
 mod short;
-mod system;
 mod target;
 
 pub use optimize::optimize;

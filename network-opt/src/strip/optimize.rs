@@ -3,11 +3,11 @@
 use super::guard::{between, BlockRing, Guard};
 use super::options::{Block, Energy, Fairness, Freedom, OptimizeOptions, Report, Step};
 use super::rails::{rail, room, Rail};
-use super::system::{Bounds, System, Term, Var};
 use super::target::TargetShape;
 use crate::error::{MeshFault, OptimizeError};
 use crate::mesh::predicates::{dist, dot, finite, sub, P};
 use crate::mesh::{PlanarMesh, VertexId};
+use crate::quadratic::{Bounds, System, Term, Var};
 
 /// Optimises the vertices of a street network: blocks become more like their
 /// target shapes, roads smoother, nothing strays far, no face turns inside

@@ -10,7 +10,7 @@ use crate::mesh::predicates::{dot, P};
 
 /// How a vertex may move, and at which unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Var {
+pub(crate) enum Var {
     /// Not at all.
     Fixed,
     /// Freely: unknowns `k` (x) and `k + 1` (y).
@@ -21,7 +21,7 @@ pub(super) enum Var {
 
 impl Var {
     /// The displacement that unknowns `q` stand for.
-    pub(super) fn displacement(&self, q: &[f64]) -> P {
+    pub(crate) fn displacement(&self, q: &[f64]) -> P {
         match *self {
             Self::Fixed => P { x: 0.0, y: 0.0 },
             Self::Free(k) => P {
@@ -51,14 +51,14 @@ impl Var {
 
 /// `weight * |sum c_k v_k - aim|^2` over up to three vertices.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Term {
-    pub(super) weight: f64,
+pub(crate) struct Term {
+    pub(crate) weight: f64,
     /// (vertex, coefficient); unused ones have coefficient 0.
-    pub(super) parts: [(usize, f64); 3],
+    pub(crate) parts: [(usize, f64); 3],
 }
 
 impl Term {
-    pub(super) fn one(weight: f64, v: usize) -> Self {
+    pub(crate) fn one(weight: f64, v: usize) -> Self {
         Self {
             weight,
             parts: [(v, 1.0), (v, 0.0), (v, 0.0)],
@@ -67,7 +67,7 @@ impl Term {
 
     /// `sum c_k v_k - aim`, from differences, so that large coordinates lose
     /// nothing. The coefficients sum to 1, or to 0 up to rounding.
-    pub(super) fn residual(&self, points: &[P], aim: P) -> P {
+    pub(crate) fn residual(&self, points: &[P], aim: P) -> P {
         let o = points[self.parts[0].0];
         let sum: f64 = self.parts.iter().map(|p| p.1).sum();
         let whole = if sum.abs() < 1e-6 { 0.0 } else { 1.0 };
@@ -83,7 +83,7 @@ impl Term {
     }
 
     /// The term's share of the energy.
-    pub(super) fn value(&self, points: &[P], aim: P) -> f64 {
+    pub(crate) fn value(&self, points: &[P], aim: P) -> f64 {
         let r = self.residual(points, aim);
         self.weight * dot(r, r)
     }
@@ -91,7 +91,7 @@ impl Term {
 
 /// The quadratic form, with its factorisation.
 #[derive(Debug)]
-pub(super) struct System {
+pub(crate) struct System {
     matrix: Matrix,
     /// `matrix` with the rows and columns of held unknowns cleared.
     reduced: Matrix,
@@ -99,20 +99,20 @@ pub(super) struct System {
     /// Which unknowns the factor holds at a bound; `None` before the first.
     held: Option<Vec<bool>>,
     /// How often the numbers were factored.
-    pub(super) factorizations: usize,
+    pub(crate) factorizations: usize,
 }
 
 /// Bounds of the unknowns: infinite for free ones.
 #[derive(Clone, Debug)]
-pub(super) struct Bounds {
-    pub(super) low: Vec<f64>,
-    pub(super) high: Vec<f64>,
+pub(crate) struct Bounds {
+    pub(crate) low: Vec<f64>,
+    pub(crate) high: Vec<f64>,
 }
 
 impl System {
     /// Assembles and analyses the matrix of the terms. `None` if there is not
     /// enough memory.
-    pub(super) fn new(size: usize, vars: &[Var], terms: &[Term]) -> Option<Self> {
+    pub(crate) fn new(size: usize, vars: &[Var], terms: &[Term]) -> Option<Self> {
         let mut triplets = Vec::with_capacity(terms.len() * 8 + size);
         for term in terms {
             for (v, cv) in term.parts {
@@ -142,7 +142,7 @@ impl System {
     }
 
     /// The right-hand side for terms that aim at the given points.
-    pub(super) fn rhs(&self, vars: &[Var], begin: &[P], terms: &[(Term, P)]) -> Vec<f64> {
+    pub(crate) fn rhs(&self, vars: &[Var], begin: &[P], terms: &[(Term, P)]) -> Vec<f64> {
         let mut rhs = vec![0.0; self.matrix.size];
         for (term, aim) in terms {
             let r = term.residual(begin, *aim);
@@ -164,7 +164,7 @@ impl System {
     /// nothing changes (two or three rounds in practice). Should that cycle,
     /// a step along the projected direction to the exact minimum on that line
     /// is taken instead.
-    pub(super) fn minimise(&mut self, q: &mut [f64], rhs: &[f64], b: &Bounds) -> Option<usize> {
+    pub(crate) fn minimise(&mut self, q: &mut [f64], rhs: &[f64], b: &Bounds) -> Option<usize> {
         const ROUNDS: usize = 12;
         let n = q.len();
         // -1 held at the low bound, 1 at the high one.

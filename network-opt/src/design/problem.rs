@@ -1,0 +1,243 @@
+//! What is to be solved: a specification spelled out on one mesh.
+
+use crate::error::DesignError;
+
+/// What is known of an edge beforehand.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum EdgeState {
+    /// The program decides.
+    #[default]
+    Open,
+    /// Active already, such as an existing street: costs no length, and its
+    /// own way to a sink is not counted, but others travel over it.
+    Given,
+    /// Must become active, and costs what others cost.
+    Required,
+    /// Must not become active.
+    Closed,
+}
+
+/// A combination of active and inactive edges that is unwelcome.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Pattern {
+    /// What it is called in messages: "zig-zag", "too close".
+    pub kind: PatternKind,
+    /// Edges that are active in it.
+    pub active: Vec<usize>,
+    /// Edges that are not.
+    pub inactive: Vec<usize>,
+    /// What each occurrence costs; `None` forbids it.
+    pub cost: Option<f64>,
+}
+
+/// The local features of the paper's section 4.2.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum PatternKind {
+    /// Opposite edges of a quad.
+    TooClose,
+    /// Three edges that turn one way and then the other.
+    ZigZag,
+    /// Three of four edges at a crossing.
+    TJunction,
+    /// Three edges or more at a vertex.
+    Branch,
+    /// One edge alone at a vertex that is no sink.
+    DeadEnd,
+}
+
+impl PatternKind {
+    /// The feature in words.
+    #[must_use]
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::TooClose => "too close",
+            Self::ZigZag => "zig-zag",
+            Self::TJunction => "T-junction",
+            Self::Branch => "branch",
+            Self::DeadEnd => "dead end",
+        }
+    }
+}
+
+/// A room that may be placed: a set of faces.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Placement {
+    /// Which template it is of.
+    pub template: String,
+    /// The faces it takes.
+    pub faces: Vec<usize>,
+    /// Edges within it, none of which may be a corridor.
+    pub inner: Vec<usize>,
+    /// Edges around it, one of which at least must be a corridor.
+    pub border: Vec<usize>,
+}
+
+/// Rooms, which take the place of coverage (the paper's section 5.2).
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Rooms {
+    /// All that may be placed.
+    pub placements: Vec<Placement>,
+    /// Whether each face is to be covered by exactly one room; the others are
+    /// obstacles, covered by none.
+    pub covered: Vec<bool>,
+}
+
+/// An integer program in the making: which edges of a mesh are active?
+///
+/// Made from a [`Specification`](super::Specification), or by hand. Every
+/// number of an edge, vertex or face is a position in the lists of the mesh.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Problem {
+    /// Number of vertices.
+    pub vertices: usize,
+    /// The two ends of each edge.
+    pub ends: Vec<[usize; 2]>,
+    /// Delta, the length of each edge: what it costs, and what travel over it
+    /// costs. Positive.
+    pub lengths: Vec<f64>,
+    /// What is known of each edge.
+    pub states: Vec<EdgeState>,
+    /// Whether each vertex is a sink: where traffic goes.
+    pub sinks: Vec<bool>,
+    /// Sets of vertices of which one at least must be active: the balls of the
+    /// coverage constraint (equation 6).
+    pub coverage: Vec<Vec<usize>>,
+    /// Vertices that must be active.
+    pub required_vertices: Vec<usize>,
+    /// Whether a vertex that is no sink may have a single active edge.
+    pub dead_ends: bool,
+    /// Unwelcome combinations of edges; each at most once.
+    pub patterns: Vec<Pattern>,
+    /// For each pair of places the paths of which one at least must be active
+    /// throughout (equations 7 and 8), by their edges.
+    pub routes: Vec<Vec<Vec<usize>>>,
+    /// Rooms, if this is a floorplan.
+    pub rooms: Option<Rooms>,
+    /// lambda_L, the weight of length.
+    pub length_weight: f64,
+    /// lambda_D, the weight of travel.
+    pub travel_weight: f64,
+}
+
+impl Problem {
+    /// Number of edges.
+    #[must_use]
+    pub fn edges(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// Whether an edge counts as active without being chosen.
+    #[must_use]
+    pub fn is_given(&self, edge: usize) -> bool {
+        self.states[edge] == EdgeState::Given
+    }
+
+    /// The edges at each vertex with their other ends.
+    #[must_use]
+    pub fn around(&self) -> Vec<Vec<(usize, usize)>> {
+        let mut around = vec![Vec::new(); self.vertices];
+        for (e, &[a, b]) in self.ends.iter().enumerate() {
+            around[a].push((e, b));
+            around[b].push((e, a));
+        }
+        around
+    }
+
+    /// Checks that the lists fit together.
+    ///
+    /// # Errors
+    ///
+    /// [`DesignError::BadProblem`], which says what does not.
+    pub fn check(&self) -> Result<(), DesignError> {
+        let bad = |what: String| Err(DesignError::BadProblem { what });
+        let (edges, vertices) = (self.edges(), self.vertices);
+        for (name, len, wanted) in [
+            ("lengths", self.lengths.len(), edges),
+            ("states", self.states.len(), edges),
+            ("sinks", self.sinks.len(), vertices),
+        ] {
+            if len != wanted {
+                return bad(format!("{name} has {len} entries, of {wanted}"));
+            }
+        }
+        if let Some(e) = self
+            .ends
+            .iter()
+            .position(|[a, b]| a == b || *a.max(b) >= vertices)
+        {
+            return bad(format!("edge {e} does not join two of {vertices} vertices"));
+        }
+        if let Some(e) = self
+            .lengths
+            .iter()
+            .position(|l| !(*l > 0.0 && l.is_finite()))
+        {
+            return bad(format!(
+                "edge {e} is {} long; lengths are positive",
+                self.lengths[e]
+            ));
+        }
+        for (name, weight) in [
+            ("length", self.length_weight),
+            ("travel", self.travel_weight),
+        ] {
+            if !(weight >= 0.0 && weight.is_finite()) {
+                return bad(format!("the weight of {name} is {weight}; give 0 or more"));
+            }
+        }
+        if !self.sinks.contains(&true) {
+            return bad("there is no sink, so nothing can be reached".to_owned());
+        }
+        let edge_lists = self.patterns.iter().flat_map(|p| [&p.active, &p.inactive]);
+        let rooms = self.rooms.iter().flat_map(|r| &r.placements);
+        let edge_lists = edge_lists
+            .chain(self.routes.iter().flatten())
+            .chain(rooms.clone().flat_map(|r| [&r.inner, &r.border]));
+        if let Some(e) = edge_lists.flatten().find(|&&e| e >= edges) {
+            return bad(format!("edge {e} is named, of {edges}"));
+        }
+        let named = self
+            .coverage
+            .iter()
+            .flatten()
+            .chain(&self.required_vertices);
+        if let Some(v) = named.into_iter().find(|&&v| v >= vertices) {
+            return bad(format!("vertex {v} is named, of {vertices}"));
+        }
+        if let Some(rooms) = &self.rooms {
+            let faces = rooms.covered.len();
+            if let Some(f) = rooms
+                .placements
+                .iter()
+                .flat_map(|r| &r.faces)
+                .find(|&&f| f >= faces)
+            {
+                return bad(format!("face {f} is named, of {faces}"));
+            }
+        }
+        let mut costs = self.patterns.iter().filter_map(|p| p.cost);
+        if let Some(cost) = costs.find(|c| !(*c >= 0.0 && c.is_finite())) {
+            return bad(format!(
+                "a pattern costs {cost}; give 0 or more, or forbid it"
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// An answer: which edges are active, and which rooms are placed.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Network {
+    /// Whether each edge is active, given ones included.
+    pub active: Vec<bool>,
+    /// Positions of the placed rooms, ascending.
+    pub rooms: Vec<usize>,
+}

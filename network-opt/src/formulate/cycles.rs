@@ -1,0 +1,220 @@
+//! The cycles within a few edges, and the sets of edges that meet all of them.
+
+use std::collections::BTreeSet;
+
+/// Steps of the search for cycles before it is given up.
+const STEPS: usize = 20_000;
+/// Sets of edges that are kept.
+const SETS: usize = 24;
+
+/// Sets of edges, each of which meets every cycle of a small graph that does
+/// not contain one of the `forbidden` sets; one empty set if there is no such
+/// cycle. At least one, none twice, in a fixed order.
+///
+/// `edges` are numbers with their two ends. Each set meets all cycles, but that
+/// the least ones or all are found is not promised: where cycles are too many
+/// to be listed, the one set is of the edges outside a spanning forest, which
+/// every cycle meets.
+pub(super) fn meeting_sets(
+    edges: &[(usize, [usize; 2])],
+    forbidden: &[Vec<usize>],
+) -> Vec<Vec<usize>> {
+    match cycles(edges, forbidden) {
+        Some(cycles) => transversals(&cycles),
+        None => vec![outside_forest(edges)],
+    }
+}
+
+/// All simple cycles without a forbidden set, each once, its edges ascending;
+/// `None` if the search takes too long.
+fn cycles(edges: &[(usize, [usize; 2])], forbidden: &[Vec<usize>]) -> Option<Vec<Vec<usize>>> {
+    let mut vertices: Vec<usize> = edges.iter().flat_map(|&(_, ends)| ends).collect();
+    vertices.sort_unstable();
+    vertices.dedup();
+    let mut search = Search {
+        around: vec![Vec::new(); vertices.len()],
+        forbidden,
+        path: Vec::new(),
+        on_path: vec![false; vertices.len()],
+        found: BTreeSet::new(),
+        steps: 0,
+    };
+    for &(e, ends) in edges {
+        let [a, b] = ends.map(|v| vertices.partition_point(|&w| w < v));
+        search.around[a].push((e, b));
+        search.around[b].push((e, a));
+    }
+    for root in 0..vertices.len() {
+        search.on_path[root] = true;
+        search.extend(root, root)?;
+        search.on_path[root] = false;
+    }
+    Some(search.found.into_iter().collect())
+}
+
+struct Search<'a> {
+    around: Vec<Vec<(usize, usize)>>,
+    forbidden: &'a [Vec<usize>],
+    path: Vec<usize>,
+    on_path: Vec<bool>,
+    found: BTreeSet<Vec<usize>>,
+    steps: usize,
+}
+
+impl Search<'_> {
+    /// Extends a path that began at `root` over vertices after it.
+    fn extend(&mut self, root: usize, at: usize) -> Option<()> {
+        self.steps += 1;
+        if self.steps > STEPS {
+            return None;
+        }
+        for k in 0..self.around[at].len() {
+            let (e, to) = self.around[at][k];
+            if to < root || self.path.last() == Some(&e) || (self.on_path[to] && to != root) {
+                continue;
+            }
+            self.path.push(e);
+            if self.is_allowed(e) {
+                if to == root {
+                    if self.path.len() > 1 {
+                        let mut cycle = self.path.clone();
+                        cycle.sort_unstable();
+                        self.found.insert(cycle);
+                    }
+                } else {
+                    self.on_path[to] = true;
+                    self.extend(root, to)?;
+                    self.on_path[to] = false;
+                }
+            }
+            self.path.pop();
+        }
+        Some(())
+    }
+
+    /// Whether the path holds no forbidden set with its last edge in it.
+    fn is_allowed(&self, last: usize) -> bool {
+        !self
+            .forbidden
+            .iter()
+            .any(|set| set.contains(&last) && set.iter().all(|e| self.path.contains(e)))
+    }
+}
+
+/// Sets with an edge of each cycle: an edge of the shortest cycle that is not
+/// met, each in turn.
+fn transversals(cycles: &[Vec<usize>]) -> Vec<Vec<usize>> {
+    let mut found: BTreeSet<Vec<usize>> = BTreeSet::new();
+    let mut open: Vec<Vec<usize>> = vec![Vec::new()];
+    while let Some(set) = open.pop() {
+        if found.len() >= SETS {
+            break;
+        }
+        let missed = cycles.iter().filter(|c| !c.iter().any(|e| set.contains(e)));
+        match missed.min_by_key(|c| c.len()) {
+            None => {
+                let mut set = set;
+                set.sort_unstable();
+                found.insert(set);
+            }
+            Some(cycle) => open.extend(cycle.iter().rev().map(|&e| {
+                let mut larger = set.clone();
+                larger.push(e);
+                larger
+            })),
+        }
+    }
+    // Of two sets, one within the other, the smaller says more.
+    let all: Vec<Vec<usize>> = found.into_iter().collect();
+    let least = all.iter().filter(|set| {
+        !all.iter()
+            .any(|other| other.len() < set.len() && other.iter().all(|e| set.contains(e)))
+    });
+    least.cloned().collect()
+}
+
+fn outside_forest(edges: &[(usize, [usize; 2])]) -> Vec<usize> {
+    let most = edges.iter().flat_map(|(_, ends)| ends).max();
+    let mut group: Vec<usize> = (0..=most.copied().unwrap_or(0)).collect();
+    let mut outside = Vec::new();
+    for &(e, [a, b]) in edges {
+        let (from, to) = (group[a], group[b]);
+        if from == to {
+            outside.push(e);
+        } else {
+            group
+                .iter_mut()
+                .filter(|g| **g == from)
+                .for_each(|g| *g = to);
+        }
+    }
+    outside
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A window of two by two panes; edges by rows, then by columns.
+    fn window() -> Vec<(usize, [usize; 2])> {
+        let across = (0..9).filter(|v| v % 3 < 2).map(|v| [v, v + 1]);
+        let up = (0..6).map(|v| [v, v + 3]);
+        across.chain(up).enumerate().collect()
+    }
+
+    /// What forbids two opposite edges of a pane.
+    fn too_close() -> Vec<Vec<usize>> {
+        let pairs = [
+            (0, 2),
+            (1, 3),
+            (2, 4),
+            (3, 5),
+            (6, 7),
+            (7, 8),
+            (9, 10),
+            (10, 11),
+        ];
+        pairs.map(|(a, b)| vec![a, b]).to_vec()
+    }
+
+    #[test]
+    fn the_cycles_of_a_window_are_counted() {
+        // 4 panes, 4 pairs, 4 corners of three, all four, and around the middle
+        // none but that: 4 + 4 + 4 + 1.
+        assert_eq!(cycles(&window(), &[]).expect("few").len(), 13);
+        // Without too close edges only the frame.
+        let frame = cycles(&window(), &too_close()).expect("few");
+        assert_eq!(frame, [vec![0, 1, 4, 5, 6, 8, 9, 11]]);
+        let sets = meeting_sets(&window(), &too_close());
+        assert_eq!(sets.len(), 8);
+        assert!(sets.iter().all(|set| set.len() == 1));
+    }
+
+    #[test]
+    fn every_set_meets_every_cycle() {
+        let sets = meeting_sets(&window(), &[]);
+        let all = cycles(&window(), &[]).expect("few");
+        let forest = outside_forest(&window());
+        // 12 edges, 9 vertices, 4 independent cycles.
+        assert_eq!(forest.len(), 4);
+        for set in sets.iter().chain([&forest]) {
+            assert!(
+                all.iter().all(|c| c.iter().any(|e| set.contains(e))),
+                "{set:?}"
+            );
+        }
+        // A tree has no cycle.
+        assert_eq!(meeting_sets(&window()[..4], &[]), [Vec::<usize>::new()]);
+    }
+
+    #[test]
+    fn too_many_cycles_are_not_listed() {
+        let n = 12;
+        let complete: Vec<[usize; 2]> = (0..n).flat_map(|a| (0..a).map(move |b| [b, a])).collect();
+        let edges: Vec<_> = complete.into_iter().enumerate().collect();
+        assert_eq!(cycles(&edges, &[]), None);
+        let sets = meeting_sets(&edges, &[]);
+        assert_eq!(sets.len(), 1);
+        assert_eq!(sets[0].len(), n * (n - 1) / 2 - (n - 1));
+    }
+}

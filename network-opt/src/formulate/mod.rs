@@ -1,0 +1,376 @@
+//! From a [`Problem`] to an integer program and back.
+//!
+//! One module for each family of constraints, each with its equation:
+//! `activity` (1), `dead_ends` (2), `coverage` (3), `patterns` (4, 5), `balls`
+//! (6), `flow` (7), `travel` (8), `single_sink` (9), `routes`, `rooms` (15 to
+//! 19), and `paper`, the formulation of Peng et al. 2016 as they wrote it.
+
+mod activity;
+mod balls;
+mod coverage;
+mod cycles;
+mod dead_ends;
+mod draft;
+mod flow;
+mod paper;
+mod patterns;
+mod prepare;
+mod rooms;
+mod routes;
+mod single_sink;
+mod travel;
+
+use crate::design::{Network, Problem};
+use crate::error::DesignError;
+use crate::mip::{Program, Row};
+
+use draft::{Draft, Fill, Known, Term};
+
+pub use prepare::{prepare, Fate};
+pub use single_sink::longest_ways;
+
+/// Which integer program a problem becomes.
+///
+/// All have the same valid networks and the same optimum, but that
+/// [`Formulation::Flow`] does not price travel and [`Formulation::Paper`]
+/// prices it by the paper's recursion, which is the true distance where all
+/// edges are of length 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Formulation {
+    /// What is best for the weights and sinks of the problem, see
+    /// [`Formulation::for_problem`].
+    #[default]
+    Recommended,
+    /// **F**: a flow from vertices; exact if travel costs nothing, else a lower
+    /// bound.
+    Flow,
+    /// **Fe**: a flow from edges that prices travel.
+    TravelFlow,
+    /// **T**: distances of vertices along a tree, for one sink or few.
+    SingleSink,
+    /// The paper's own, equations 1 to 17: distances of half-edges.
+    Paper,
+}
+
+impl Formulation {
+    /// The one that measured best: [`Formulation::Flow`] where travel costs
+    /// nothing, [`Formulation::SingleSink`] with one sink and travel that counts
+    /// most, [`Formulation::TravelFlow`] else. Where travel only breaks ties
+    /// between networks of one length, [`Exact`](crate::solve::Exact) solves the
+    /// flow before it.
+    #[must_use]
+    pub fn for_problem(problem: &Problem) -> Self {
+        let sinks = problem.sinks.iter().filter(|&&sink| sink).count();
+        if problem.travel_weight == 0.0 {
+            Self::Flow
+        } else if sinks == 1 && problem.travel_weight >= problem.length_weight {
+            Self::SingleSink
+        } else {
+            Self::TravelFlow
+        }
+    }
+}
+
+/// A problem as an integer program.
+#[derive(Debug)]
+pub struct Formulated<'p> {
+    problem: &'p Problem,
+    formulation: Formulation,
+    program: Program,
+    x: Vec<Term>,
+    rooms: Option<usize>,
+    families: Vec<Family>,
+    contradicts: bool,
+    longest: Option<Vec<f64>>,
+    /// Columns before those of connectivity, travel and rooms: what they cost is
+    /// length and patterns.
+    plain: usize,
+}
+
+/// Families with columns of their own.
+#[derive(Debug)]
+enum Family {
+    Plain(Box<dyn Fill>),
+    Rooms(rooms::Rooms),
+}
+
+impl<'p> Formulated<'p> {
+    /// Writes a problem down as an integer program. `longest` bounds the way of
+    /// each vertex to its sink; only [`Formulation::SingleSink`] uses it, and
+    /// is the better the less it is: see [`longest_ways`].
+    ///
+    /// # Errors
+    ///
+    /// [`DesignError::BadProblem`] if the problem does not fit together.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use network_opt::design::{Network, Problem};
+    /// use network_opt::formulate::{Formulated, Formulation};
+    /// use network_opt::mip::{Microlp, MipReply, MipSolver};
+    ///
+    /// // A square with the sink at vertex 0; vertex 2 has to be reached.
+    /// let problem = Problem {
+    ///     vertices: 4,
+    ///     ends: vec![[0, 1], [1, 2], [2, 3], [3, 0]],
+    ///     lengths: vec![1.0, 1.0, 1.0, 2.0],
+    ///     states: vec![Default::default(); 4],
+    ///     sinks: vec![true, false, false, false],
+    ///     required_vertices: vec![2],
+    ///     dead_ends: true,
+    ///     length_weight: 1.0,
+    ///     ..Problem::default()
+    /// };
+    /// let formulated = Formulated::new(&problem, Formulation::Recommended, None)?;
+    /// let (program, limits) = (formulated.program(), Default::default());
+    /// let found = Microlp.solve(program, None, &limits, &mut |_| MipReply::GoOn)?;
+    /// let network = formulated.network(&found.solution.unwrap());
+    /// assert_eq!(network.active, [true, true, false, false]);
+    /// # Ok::<(), network_opt::DesignError>(())
+    /// ```
+    pub fn new(
+        problem: &'p Problem,
+        formulation: Formulation,
+        longest: Option<Vec<f64>>,
+    ) -> Result<Self, DesignError> {
+        problem.check()?;
+        let formulation = match formulation {
+            Formulation::Recommended => Formulation::for_problem(problem),
+            other => other,
+        };
+        let mut draft = Draft::new(problem);
+        let tight = formulation != Formulation::Paper;
+        let mut families: Vec<Family> = Vec::new();
+        let mut plain = |family: Box<dyn Fill>| families.push(Family::Plain(family));
+        plain(Box::new(activity::add(&mut draft, tight)));
+        dead_ends::add(&mut draft);
+        coverage::add(&mut draft);
+        plain(Box::new(routes::add(&mut draft, tight)));
+        if tight {
+            plain(Box::new(patterns::add(&mut draft)));
+            balls::add(&mut draft);
+        }
+        let plain_columns = draft.program.columns().len();
+        match formulation {
+            Formulation::Recommended | Formulation::Flow => {
+                plain(Box::new(flow::add(&mut draft)));
+            }
+            Formulation::TravelFlow => {
+                plain(Box::new(travel::add(&mut draft)));
+                if flow::has_orphans(&draft) {
+                    plain(Box::new(flow::add(&mut draft)));
+                }
+            }
+            Formulation::SingleSink => {
+                plain(Box::new(single_sink::add(&mut draft, longest.as_deref())));
+            }
+            Formulation::Paper => plain(Box::new(paper::add(&mut draft))),
+        }
+        let rooms = rooms::add(&mut draft, tight).map(|rooms| {
+            families.push(Family::Rooms(rooms));
+            families.len() - 1
+        });
+        let mut program = draft.program;
+        program.promise_step(step(problem, formulation));
+        Ok(Self {
+            problem,
+            formulation,
+            program,
+            x: draft.x,
+            rooms,
+            families,
+            contradicts: draft.contradicts,
+            longest,
+            plain: plain_columns,
+        })
+    }
+
+    /// The program.
+    #[must_use]
+    pub fn program(&self) -> &Program {
+        &self.program
+    }
+
+    /// Which it is; never [`Formulation::Recommended`].
+    #[must_use]
+    pub fn formulation(&self) -> Formulation {
+        self.formulation
+    }
+
+    /// The bounds on the ways of vertices that the program relies on: it knows of
+    /// no network with a longer one.
+    #[must_use]
+    pub fn longest(&self) -> Option<&[f64]> {
+        let relies = self.formulation == Formulation::SingleSink;
+        self.longest.as_deref().filter(|_| relies)
+    }
+
+    /// Whether some row cannot hold, so that there is no valid network.
+    #[must_use]
+    pub fn contradicts(&self) -> bool {
+        self.contradicts
+    }
+
+    /// The network of a solution.
+    ///
+    /// # Panics
+    ///
+    /// If there is not one value a column.
+    #[must_use]
+    pub fn network(&self, values: &[f64]) -> Network {
+        assert_eq!(
+            values.len(),
+            self.program.columns().len(),
+            "one value a column"
+        );
+        let active = self.x.iter().map(|x| match x {
+            Term::Off => false,
+            Term::On => true,
+            Term::Column(column) => values[*column] > 0.5,
+        });
+        Network {
+            active: active.collect(),
+            rooms: (self.room_family()).map_or_else(Vec::new, |rooms| rooms.placed(values)),
+        }
+    }
+
+    /// The solution of a network. If the network is valid, and no way in it
+    /// longer than [`Formulated::longest`], it meets all rows.
+    ///
+    /// # Panics
+    ///
+    /// If the network has not one entry an edge.
+    #[must_use]
+    pub fn solution(&self, network: &Network) -> Vec<f64> {
+        assert_eq!(
+            network.active.len(),
+            self.problem.edges(),
+            "one entry an edge"
+        );
+        let known = Known::new(self.problem, network);
+        // Fixed columns hold constants.
+        let columns = self.program.columns().iter();
+        let mut values: Vec<f64> = columns
+            .map(|c| if c.low == c.high { c.low } else { 0.0 })
+            .collect();
+        for family in &self.families {
+            match family {
+                Family::Plain(family) => family.fill(&known, &mut values),
+                Family::Rooms(rooms) => rooms.fill(&known, &mut values),
+            }
+        }
+        values
+    }
+
+    /// Valid rows that a solution of the relaxation violates by over
+    /// `tolerance`: room cuts, which are too many to write all of them down.
+    #[must_use]
+    pub fn separate(&self, values: &[f64], tolerance: f64) -> Vec<Row> {
+        (self.room_family()).map_or_else(Vec::new, |rooms| rooms.separate(values, tolerance))
+    }
+
+    /// The program with all edges as in `network` but those of which `free` says
+    /// true, and rooms as there but those with all their edges free.
+    ///
+    /// # Panics
+    ///
+    /// If `network` or `free` has not one entry an edge.
+    #[must_use]
+    pub fn window(&self, network: &Network, free: &[bool]) -> Program {
+        assert_eq!(network.active.len(), self.x.len(), "one entry an edge");
+        assert_eq!(free.len(), self.x.len(), "one entry an edge");
+        let mut program = self.program.clone();
+        for (e, x) in self.x.iter().enumerate() {
+            if let (Term::Column(column), false) = (*x, free[e]) {
+                let value = f64::from(u8::from(network.active[e]));
+                program.bound(column, value, value);
+            }
+        }
+        if let (Some(rooms), Some(placed)) = (self.room_family(), &self.problem.rooms) {
+            let is_free = placed.placements.iter().map(|placement| {
+                let mut edges = placement.inner.iter().chain(&placement.border);
+                edges.all(|&e| free[e])
+            });
+            for (k, is_free) in is_free.enumerate() {
+                if let (Some(column), false) = (rooms.column(k), is_free) {
+                    let value = f64::from(u8::from(network.rooms.contains(&k)));
+                    program.bound(column, value, value);
+                }
+            }
+        }
+        program
+    }
+
+    /// Whether there are any such rows.
+    #[must_use]
+    pub fn separates(&self) -> bool {
+        self.rooms.is_some()
+    }
+
+    /// Adds a row that all valid networks meet.
+    pub fn cut(&mut self, row: Row) {
+        self.program.row(row.low, row.high, row.terms);
+    }
+
+    /// Adds a row: length and patterns cost `low` at least and `high` at most,
+    /// by their weights. Patterns of [`Formulation::Paper`] are not counted.
+    pub fn limit_length(&mut self, low: f64, high: f64) {
+        let columns = self.program.columns()[..self.plain].iter().enumerate();
+        let terms: Vec<(usize, f64)> = columns
+            .filter(|(_, c)| c.cost != 0.0)
+            .map(|(k, c)| (k, c.cost))
+            .collect();
+        self.program.row(low, high, terms);
+    }
+
+    fn room_family(&self) -> Option<&rooms::Rooms> {
+        match self.families.get(self.rooms?)? {
+            Family::Rooms(rooms) => Some(rooms),
+            Family::Plain(_) => None,
+        }
+    }
+}
+
+/// What the cost of every network is a multiple of, to a billionth; 0 if that
+/// is too little to be of use.
+fn step(problem: &Problem, formulation: Formulation) -> f64 {
+    let fold = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, common);
+    let length = fold(&mut problem.lengths.iter().copied());
+    let travel = match formulation {
+        Formulation::Flow => 0.0,
+        _ => problem.travel_weight * length,
+    };
+    let patterns = fold(&mut problem.patterns.iter().filter_map(|p| p.cost));
+    let step = fold(&mut [problem.length_weight * length, travel, patterns].into_iter());
+    if step > 1e-5 {
+        step
+    } else {
+        0.0
+    }
+}
+
+/// The largest number of which both are multiples, up to rounding.
+fn common(mut a: f64, mut b: f64) -> f64 {
+    let least = 1e-9 * a.max(b);
+    while b > least {
+        let rest = a % b;
+        // What is a multiple but for rounding leaves nearly nothing, or nearly b.
+        (a, b) = (b, rest.min(b - rest));
+    }
+    a
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn common_steps_are_found() {
+        assert_eq!(common(0.0, 3.0), 3.0);
+        assert_eq!(common(6.0, 4.0), 2.0);
+        assert!((common(0.3, 0.1) - 0.1).abs() < 1e-12);
+        assert!((common(1.0, 0.0001) - 0.0001).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,346 @@
+//! HiGHS, the open solver of mixed-integer programs.
+
+use std::num::NonZeroU32;
+use std::sync::Arc;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use ::highs::{HighsModelStatus, Model, RowProblem, Sense, SolvedModel};
+
+use super::{MipOutcome, MipProgress, MipReply, MipSolver, MipStatus, MipWatch, Program};
+use crate::error::DesignError;
+use crate::solve::Limits;
+
+mod callback;
+
+use callback::{run_shared, Shared};
+
+/// HiGHS.
+///
+/// It runs on a thread of its own, so that the watch is asked twenty times a
+/// second whatever HiGHS is at. Asked to stop it looks up soon; should it not,
+/// within [`Highs::GRACE`], the answer is given without it, and its thread ends
+/// when it does look up.
+///
+/// `threads` over 1 lets HiGHS search on several; results may then differ
+/// between runs.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Highs;
+
+impl Highs {
+    /// How long HiGHS has to stop before it is left behind.
+    pub const GRACE: Duration = Duration::from_millis(100);
+    /// Between two looks at the watch.
+    const SLICE: Duration = Duration::from_millis(50);
+
+    fn failed(self, what: impl Into<String>) -> DesignError {
+        DesignError::SolverFailed {
+            solver: self.name(),
+            what: what.into(),
+        }
+    }
+}
+
+impl MipSolver for Highs {
+    fn name(&self) -> &'static str {
+        "HiGHS"
+    }
+
+    fn solve(
+        &self,
+        program: &Program,
+        start: Option<&[f64]>,
+        limits: &Limits,
+        watch: &mut MipWatch<'_>,
+    ) -> Result<MipOutcome, DesignError> {
+        let began = Instant::now();
+        // HiGHS counts in 32 bits, and its wrapper panics where that is not enough.
+        let largest = (program.columns().len())
+            .max(program.rows().len())
+            .max(program.nonzeros());
+        if i32::try_from(largest).is_err() {
+            return Err(DesignError::OutOfMemory {
+                what: format!("a program with {largest} factors is too large for HiGHS"),
+            });
+        }
+        let columns = program.columns().len();
+        let shared = Arc::new(Shared::default());
+        let (program, start) = (program.clone(), start.map(<[f64]>::to_vec));
+        let (theirs, limits) = (Arc::clone(&shared), limits.clone());
+        let deadline = limits.deadline;
+        let thread = thread::Builder::new().name("highs".to_owned());
+        // Its own stack for its recursive dives, as large as a main thread's.
+        let spawned = thread.stack_size(8 << 20).spawn(move || {
+            let answer = run(&program, start.as_deref(), &limits, &theirs);
+            theirs.done();
+            answer
+        });
+        let handle = spawned.map_err(|error| self.failed(format!("no thread: {error}")))?;
+        let mut stopped: Option<(MipStatus, Instant)> = None;
+        let mut seen = 0;
+        loop {
+            let finished = shared.wait(Self::SLICE);
+            let now = Instant::now();
+            let news = shared.news(seen);
+            seen = news.version;
+            if finished {
+                let answer = handle.join();
+                let outcome = answer.map_err(|_| self.failed("its thread panicked"))??;
+                // What ended HiGHS is known better here.
+                return Ok(match (outcome.status, stopped) {
+                    (MipStatus::Deadline | MipStatus::Cancelled, Some((why, _))) => MipOutcome {
+                        status: why,
+                        ..outcome
+                    },
+                    _ => outcome,
+                });
+            }
+            if let Some((status, since)) = stopped {
+                if now - since > Self::GRACE {
+                    return Ok(MipOutcome {
+                        status,
+                        objective: news.objective,
+                        solution: news.best,
+                        bound: news.bound,
+                    });
+                }
+                continue;
+            }
+            let reply = watch(&MipProgress {
+                elapsed: now - began,
+                best: news.best.as_deref(),
+                improved: news.improved,
+                bound: news.bound,
+            });
+            let late = deadline.is_some_and(|deadline| now - began >= deadline);
+            let no = reply == MipReply::Stop;
+            match reply {
+                MipReply::Try(values) if values.len() == columns => shared.suggest(values),
+                _ => {}
+            }
+            if no || late {
+                let why = if no {
+                    MipStatus::Cancelled
+                } else {
+                    MipStatus::Deadline
+                };
+                stopped = Some((why, now));
+                shared.stop();
+            }
+        }
+    }
+}
+
+/// Hands the program to HiGHS and waits for its answer.
+fn run(
+    program: &Program,
+    start: Option<&[f64]>,
+    limits: &Limits,
+    shared: &Shared,
+) -> Result<MipOutcome, DesignError> {
+    let failed = |what: &str| Highs.failed(what);
+    let mut rows = RowProblem::default();
+    let columns: Vec<_> = program
+        .columns()
+        .iter()
+        .map(|c| rows.add_column_with_integrality(c.cost, c.low..=c.high, c.integer))
+        .collect();
+    for row in program.rows() {
+        let terms = row.terms.iter().map(|&(c, factor)| (columns[c], factor));
+        rows.add_row(row.low..=row.high, terms);
+    }
+    let mut model = rows
+        .try_optimise(Sense::Minimise)
+        .map_err(|_| failed("it refused the program"))?;
+    model.make_quiet();
+    configure(&mut model, program, limits).ok_or_else(|| failed("it refused an option"))?;
+    if let Some(values) = start {
+        // A start that it does not like is left out; so is one that meets not
+        // all rows.
+        let _: Result<(), _> = model.try_set_solution(Some(values), None, None, None);
+    }
+    let mut solved = run_shared(model, shared).map_err(|_| failed("it gave up"))?;
+    answer(program, &mut solved, shared)
+}
+
+fn configure(model: &mut Model, program: &Program, limits: &Limits) -> Option<()> {
+    let threads = u32::try_from(limits.threads)
+        .unwrap_or(u32::MAX)
+        .clamp(1, 256);
+    model.set_threads(NonZeroU32::new(threads)?);
+    // A sixteenth of 2^31 seeds is enough, and all that its option takes.
+    let seed = (limits.seed % (1 << 27)) as i32;
+    model.try_set_option("random_seed", seed).ok()?;
+    model
+        .try_set_option("mip_rel_gap", limits.gap.max(0.0))
+        .ok()?;
+    if program.step() > 0.0 {
+        // Less than a step, by more than what HiGHS holds a solution feasible for.
+        let gap = program.step() * (1.0 - 1e-4);
+        model.try_set_option("mip_abs_gap", gap).ok()?;
+    }
+    if let Some(deadline) = limits.deadline {
+        model
+            .try_set_option("time_limit", deadline.as_secs_f64())
+            .ok()?;
+    }
+    Some(())
+}
+
+fn answer(
+    program: &Program,
+    solved: &mut SolvedModel,
+    shared: &Shared,
+) -> Result<MipOutcome, DesignError> {
+    let has_integers = program.columns().iter().any(|c| c.integer);
+    let status = match solved.status() {
+        HighsModelStatus::Optimal | HighsModelStatus::ModelEmpty => MipStatus::Optimal,
+        // Every column of a network's program is bounded.
+        HighsModelStatus::Infeasible | HighsModelStatus::UnboundedOrInfeasible => {
+            return Ok(MipOutcome {
+                status: MipStatus::Infeasible,
+                solution: None,
+                objective: f64::INFINITY,
+                bound: f64::INFINITY,
+            })
+        }
+        HighsModelStatus::ReachedTimeLimit => MipStatus::Deadline,
+        HighsModelStatus::ReachedInterrupt => MipStatus::Cancelled,
+        HighsModelStatus::ReachedMemoryLimit => {
+            return Err(DesignError::OutOfMemory {
+                what: "HiGHS ran out of memory".to_owned(),
+            })
+        }
+        other => return Err(Highs.failed(format!("it ended with {other:?}"))),
+    };
+    let feasible = solved.primal_solution_status() == ::highs::HighsSolutionStatus::Feasible;
+    let mut outcome = MipOutcome {
+        status,
+        solution: None,
+        objective: f64::INFINITY,
+        bound: f64::NEG_INFINITY,
+    };
+    if feasible {
+        let mut values = solved.get_solution().columns().to_vec();
+        values.resize(program.columns().len(), 0.0);
+        for (value, column) in values.iter_mut().zip(program.columns()) {
+            if column.integer {
+                *value = value.round();
+            }
+        }
+        outcome.objective = program.objective(&values);
+        outcome.solution = Some(values);
+    }
+    outcome.bound = if has_integers {
+        let told = solved.double_info_value(c"mip_dual_bound");
+        told.unwrap_or(f64::NEG_INFINITY).max(shared.bound())
+    } else if status == MipStatus::Optimal {
+        outcome.objective
+    } else {
+        f64::NEG_INFINITY
+    };
+    if status == MipStatus::Optimal {
+        outcome.bound = program.rounded(outcome.bound);
+        outcome.bound = outcome.bound.min(outcome.objective);
+    }
+    Ok(outcome)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mip::tests::{an_infeasible_program, knapsack};
+
+    #[test]
+    fn small_programs_are_solved() {
+        let (program, best) = knapsack(10);
+        for start in [None, Some(vec![0.0; 10])] {
+            let found = Highs
+                .solve(&program, start.as_deref(), &Limits::default(), &mut |_| {
+                    MipReply::GoOn
+                })
+                .expect("solved");
+            assert_eq!(found.status, MipStatus::Optimal);
+            assert!((found.objective - best).abs() < 1e-6, "{found:?}");
+            assert!((found.bound - best).abs() < 1e-6);
+        }
+        let none = Highs
+            .solve(
+                &an_infeasible_program(),
+                None,
+                &Limits::default(),
+                &mut |_| MipReply::GoOn,
+            )
+            .expect("solved");
+        assert_eq!(none.status, MipStatus::Infeasible);
+    }
+
+    #[test]
+    fn a_relaxation_is_a_lower_bound() {
+        let (program, best) = knapsack(10);
+        let found = Highs
+            .solve(&program.relaxed(), None, &Limits::default(), &mut |_| {
+                MipReply::GoOn
+            })
+            .expect("solved");
+        assert_eq!(found.status, MipStatus::Optimal);
+        assert!(found.objective <= best + 1e-6);
+        assert_eq!(found.bound, found.objective);
+    }
+
+    /// Hard to prove: as many pigeons as holes and one more, by pairs.
+    fn pigeons(n: usize) -> Program {
+        let mut program = Program::default();
+        let at: Vec<Vec<usize>> = (0..=n)
+            .map(|_| (0..n).map(|_| program.binary(0.0)).collect())
+            .collect();
+        // That some are left out is possible, and expensive.
+        let out: Vec<usize> = (0..=n).map(|_| program.binary(1.0)).collect();
+        for p in 0..=n {
+            let places = at[p].iter().chain([&out[p]]).map(|&c| (c, 1.0));
+            program.row(1.0, f64::INFINITY, places);
+            for q in 0..p {
+                for (&mine, &theirs) in at[p].iter().zip(&at[q]) {
+                    program.row(f64::NEG_INFINITY, 1.0, [(mine, 1.0), (theirs, 1.0)]);
+                }
+            }
+        }
+        program
+    }
+
+    #[test]
+    fn a_no_and_a_deadline_are_kept() {
+        // Its own cliques would end the search at once if it were small.
+        let program = pigeons(40);
+        let mut told = None;
+        let found = Highs
+            .solve(&program, None, &Limits::default(), &mut |progress| {
+                let go_on = progress.elapsed < Duration::from_millis(60);
+                if go_on {
+                    return MipReply::GoOn;
+                }
+                told = Some(Instant::now());
+                MipReply::Stop
+            })
+            .expect("no failure");
+        // If it was not done before, it stopped soon.
+        if let Some(told) = told {
+            // 0.15 s, and what a busy machine takes to wake a thread.
+            assert!(told.elapsed() < Duration::from_millis(500));
+            assert!(matches!(
+                found.status,
+                MipStatus::Cancelled | MipStatus::Optimal
+            ));
+        }
+        let began = Instant::now();
+        let limits = Limits {
+            deadline: Some(Duration::from_millis(100)),
+            ..Limits::default()
+        };
+        let found = Highs
+            .solve(&program, None, &limits, &mut |_| MipReply::GoOn)
+            .expect("no failure");
+        assert!(found.bound <= 1.0 + 1e-6);
+        assert!(began.elapsed() < Duration::from_millis(100 + 500));
+    }
+}

@@ -1,0 +1,247 @@
+//! Why there is no network: which families of constraints are in each other's
+//! way.
+
+use super::{Ended, Exact, Limits, NetworkSolver};
+use crate::design::{EdgeState, PatternKind, Problem};
+use crate::error::DesignError;
+use crate::mip::MipSolver;
+
+/// A family of constraints that can be left out of a problem.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum Constraints {
+    /// That places are covered.
+    Coverage,
+    /// That vertices are active.
+    RequiredVertices,
+    /// That edges are active.
+    RequiredEdges,
+    /// That edges are not.
+    ClosedEdges,
+    /// That there are no dead ends.
+    DeadEnds,
+    /// That a pattern does not occur.
+    Pattern(PatternKind),
+    /// That routes are there.
+    Routes,
+    /// That rooms tile the floor, on corridors.
+    Rooms,
+    /// That all is within reach of a sink: without it every vertex is one.
+    Connectivity,
+}
+
+/// What makes a problem infeasible.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Conflict {
+    /// Families each of which, left out alone, makes the rest possible.
+    pub each: Vec<Constraints>,
+    /// Families that cannot all be met, but could without any one of them, as
+    /// far as that could be found out in time. Those of `each` are all in it.
+    pub together: Vec<Constraints>,
+    /// Whether every question was answered in time.
+    pub complete: bool,
+}
+
+/// Finds out which families of constraints conflict, by leaving out one after
+/// the other; `None` if the problem has a network.
+///
+/// Each question has the time of `limits` to be answered. What is not answered
+/// counts as if it had no network; [`Conflict::complete`] says so.
+///
+/// # Errors
+///
+/// As [`NetworkSolver::solve`].
+///
+/// # Examples
+///
+/// ```
+/// use network_opt::design::{EdgeState, Problem};
+/// use network_opt::mip::Microlp;
+/// use network_opt::solve::{conflicts, Constraints, Limits};
+///
+/// // Vertex 1 can only be reached by a dead end.
+/// let problem = Problem {
+///     vertices: 2,
+///     ends: vec![[0, 1]],
+///     lengths: vec![1.0],
+///     states: vec![EdgeState::Open],
+///     sinks: vec![true, false],
+///     required_vertices: vec![1],
+///     length_weight: 1.0,
+///     ..Problem::default()
+/// };
+/// let conflict = conflicts(&problem, &Microlp, &Limits::default())?.unwrap();
+/// assert!(conflict.each.contains(&Constraints::DeadEnds));
+/// assert!(conflict.each.contains(&Constraints::RequiredVertices));
+/// # Ok::<(), network_opt::DesignError>(())
+/// ```
+pub fn conflicts<M: MipSolver>(
+    problem: &Problem,
+    solver: &M,
+    limits: &Limits,
+) -> Result<Option<Conflict>, DesignError> {
+    problem.check()?;
+    let mut complete = true;
+    let mut possible = |problem: &Problem| -> Result<bool, DesignError> {
+        // Any network will do, and the shortest is the easiest to look for.
+        let asked = Problem {
+            length_weight: 1.0,
+            travel_weight: 0.0,
+            patterns: (problem.patterns.iter())
+                .filter(|p| p.cost.is_none())
+                .cloned()
+                .collect(),
+            ..problem.clone()
+        };
+        let exact = Exact::new(solver);
+        let mut found = false;
+        let outcome = exact.solve(&asked, None, limits, &mut |progress| {
+            found = progress.best.is_some();
+            !found
+        })?;
+        complete &= found || outcome.network.is_some() || outcome.ended == Ended::Infeasible;
+        Ok(found || outcome.network.is_some())
+    };
+    if possible(problem)? {
+        return Ok(None);
+    }
+    let families = families(problem);
+    let mut each = Vec::new();
+    for &family in &families {
+        if possible(&without(problem, &[family]))? {
+            each.push(family);
+        }
+    }
+    // Leave out what is not needed for the conflict, one family after the other.
+    let mut left_out: Vec<Constraints> = Vec::new();
+    for &family in families.iter().filter(|family| !each.contains(family)) {
+        left_out.push(family);
+        if possible(&without(problem, &left_out))? {
+            left_out.pop();
+        }
+    }
+    let together = families.into_iter().filter(|f| !left_out.contains(f));
+    Ok(Some(Conflict {
+        together: together.collect(),
+        each,
+        complete,
+    }))
+}
+
+/// The families that a problem has.
+fn families(problem: &Problem) -> Vec<Constraints> {
+    let has = |state| problem.states.contains(&state);
+    let mut kinds: Vec<PatternKind> = (problem.patterns.iter())
+        .filter(|p| p.cost.is_none())
+        .map(|p| p.kind)
+        .collect();
+    kinds.sort_unstable();
+    kinds.dedup();
+    let plain = [
+        (!problem.coverage.is_empty(), Constraints::Coverage),
+        (
+            !problem.required_vertices.is_empty(),
+            Constraints::RequiredVertices,
+        ),
+        (
+            has(EdgeState::Required) || has(EdgeState::Given),
+            Constraints::RequiredEdges,
+        ),
+        (has(EdgeState::Closed), Constraints::ClosedEdges),
+        (!problem.dead_ends, Constraints::DeadEnds),
+        (!problem.routes.is_empty(), Constraints::Routes),
+        (problem.rooms.is_some(), Constraints::Rooms),
+        (true, Constraints::Connectivity),
+    ];
+    let plain = plain
+        .into_iter()
+        .filter(|(there, _)| *there)
+        .map(|(_, f)| f);
+    let mut families: Vec<Constraints> = plain
+        .chain(kinds.into_iter().map(Constraints::Pattern))
+        .collect();
+    families.sort_unstable();
+    families
+}
+
+/// The problem without some families.
+fn without(problem: &Problem, families: &[Constraints]) -> Problem {
+    let mut rest = problem.clone();
+    for &family in families {
+        match family {
+            Constraints::Coverage => rest.coverage.clear(),
+            Constraints::RequiredVertices => rest.required_vertices.clear(),
+            Constraints::RequiredEdges | Constraints::ClosedEdges => {
+                let closed = family == Constraints::ClosedEdges;
+                for state in &mut rest.states {
+                    if *state != EdgeState::Open && (*state == EdgeState::Closed) == closed {
+                        *state = EdgeState::Open;
+                    }
+                }
+            }
+            Constraints::DeadEnds => rest.dead_ends = true,
+            Constraints::Pattern(kind) => {
+                rest.patterns.retain(|p| p.kind != kind || p.cost.is_some());
+            }
+            Constraints::Routes => rest.routes.clear(),
+            Constraints::Rooms => rest.rooms = None,
+            Constraints::Connectivity => rest.sinks.iter_mut().for_each(|sink| *sink = true),
+        }
+    }
+    rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::Pattern;
+    use crate::mip::Microlp;
+
+    /// A square with the sink at 0; 2 has to be reached, and the two edges at 0
+    /// are too close.
+    fn square() -> Problem {
+        Problem {
+            vertices: 4,
+            ends: vec![[0, 1], [1, 2], [2, 3], [3, 0]],
+            lengths: vec![1.0; 4],
+            states: vec![EdgeState::Open; 4],
+            sinks: vec![true, false, false, false],
+            coverage: vec![vec![2]],
+            patterns: vec![Pattern {
+                kind: PatternKind::TooClose,
+                active: vec![0, 3],
+                inactive: vec![],
+                cost: None,
+            }],
+            length_weight: 1.0,
+            ..Problem::default()
+        }
+    }
+
+    #[test]
+    fn families_in_conflict_are_named() {
+        use Constraints::{Connectivity, Coverage, DeadEnds, Pattern};
+        let limits = Limits::default();
+        let found = conflicts(&square(), &Microlp, &limits).expect("solved");
+        let close = Pattern(PatternKind::TooClose);
+        let expected = vec![Coverage, DeadEnds, close, Connectivity];
+        let found = found.expect("a conflict");
+        assert_eq!((&found.each, &found.together), (&expected, &expected));
+        assert!(found.complete);
+        // Closed edges are in a conflict of their own then, and no family alone
+        // is to blame but coverage and connectivity.
+        let mut two = square();
+        two.states[0] = EdgeState::Closed;
+        two.states[3] = EdgeState::Closed;
+        let found = conflicts(&two, &Microlp, &limits)
+            .expect("solved")
+            .expect("a conflict");
+        assert_eq!(found.each, [Coverage, Connectivity]);
+        assert!(found.together.contains(&Coverage) && found.together.len() >= 3);
+        let mut fine = square();
+        fine.patterns.clear();
+        assert_eq!(conflicts(&fine, &Microlp, &limits).expect("solved"), None);
+    }
+}

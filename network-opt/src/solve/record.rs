@@ -1,0 +1,170 @@
+//! The best network so far, and who is told of it.
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use super::{Ended, Limits, Outcome, Progress, Watch};
+use crate::design::{cost, verify, Cost, Network, Problem};
+
+/// What a solver has found, and whom it tells.
+pub(super) struct Record<'p, 'w> {
+    pub(super) problem: &'p Problem,
+    pub(super) began: Instant,
+    pub(super) best: Option<(Network, Cost)>,
+    /// No valid network costs less.
+    pub(super) bound: f64,
+    /// Whether the watch has said no.
+    pub(super) cancelled: bool,
+    first: Option<Duration>,
+    watch: &'w mut Watch<'w>,
+    pool: Option<&'w Pool>,
+}
+
+/// The best network of several solvers that run side by side.
+#[derive(Debug, Default)]
+pub(super) struct Pool {
+    best: Mutex<Option<(Network, f64)>>,
+}
+
+impl Pool {
+    fn best(&self) -> MutexGuard<'_, Option<(Network, f64)>> {
+        // Nothing panics while it holds the lock.
+        self.best.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl<'p, 'w> Record<'p, 'w> {
+    /// Nothing found so far, and the clock starts.
+    pub(super) fn new(problem: &'p Problem, watch: &'w mut Watch<'_>) -> Self {
+        Self {
+            problem,
+            began: Instant::now(),
+            best: None,
+            bound: 0.0,
+            cancelled: false,
+            first: None,
+            watch,
+            pool: None,
+        }
+    }
+
+    /// Networks are shared with other solvers from now on.
+    pub(super) fn share(&mut self, pool: &'w Pool) {
+        self.pool = Some(pool);
+        self.receive();
+    }
+
+    /// Takes the network of another solver if it is better; says whether it is.
+    pub(super) fn receive(&mut self) -> bool {
+        let Some(pool) = self.pool else { return false };
+        let known = self
+            .best
+            .as_ref()
+            .map_or(f64::INFINITY, |(_, cost)| cost.objective);
+        let better = match pool.best().as_ref() {
+            Some((network, cost)) if *cost < known - 1e-9 => network.clone(),
+            _ => return false,
+        };
+        self.offer(better)
+    }
+
+    /// Keeps a network if it is valid and better; says whether it is.
+    pub(super) fn offer(&mut self, network: Network) -> bool {
+        if network.active.len() != self.problem.edges() {
+            return false;
+        }
+        let found = cost(self.problem, &network.active);
+        let better =
+            (self.best.as_ref()).is_none_or(|(_, known)| found.objective < known.objective - 1e-9);
+        if !better || !verify(self.problem, &network).is_empty() {
+            return false;
+        }
+        self.first.get_or_insert(self.began.elapsed());
+        if let Some(pool) = self.pool {
+            let mut shared = pool.best();
+            let known = shared.as_ref().map_or(f64::INFINITY, |(_, cost)| *cost);
+            if found.objective < known {
+                *shared = Some((network.clone(), found.objective));
+            }
+        }
+        self.best = Some((network, found));
+        true
+    }
+
+    /// Takes a bound if it is better.
+    pub(super) fn raise(&mut self, bound: f64) {
+        if bound > self.bound && bound.is_finite() {
+            self.bound = bound;
+        }
+    }
+
+    /// No network is better than the best.
+    pub(super) fn close(&mut self) {
+        if let Some((_, cost)) = &self.best {
+            self.bound = cost.objective;
+        }
+    }
+
+    /// Whether the best is good enough.
+    pub(super) fn is_within(&self, gap: f64) -> bool {
+        self.best.as_ref().is_some_and(|(_, cost)| {
+            // A millionth is what solvers hold a solution optimal for.
+            cost.objective - self.bound <= gap * cost.objective.abs() + 1e-6
+        })
+    }
+
+    /// Tells the watch; says whether to go on.
+    pub(super) fn report(&mut self, improved: bool) -> bool {
+        if !self.cancelled {
+            let bound = self.best_bound();
+            let go_on = (self.watch)(&Progress {
+                elapsed: self.began.elapsed(),
+                best: self.best.as_ref().map(|(network, cost)| (network, *cost)),
+                improved,
+                bound,
+            });
+            self.cancelled = !go_on;
+        }
+        !self.cancelled
+    }
+
+    /// The limits with what is left of the time.
+    pub(super) fn left(&self, limits: &Limits) -> Limits {
+        let spent = self.began.elapsed();
+        Limits {
+            deadline: limits
+                .deadline
+                .map(|deadline| deadline.saturating_sub(spent)),
+            ..limits.clone()
+        }
+    }
+
+    /// The answer.
+    pub(super) fn outcome(self, ended: Ended) -> Outcome {
+        let bound = match ended {
+            Ended::Infeasible => f64::INFINITY,
+            _ => self.best_bound(),
+        };
+        let (network, cost) = self.best.map_or_else(
+            || (None, Cost::default()),
+            |(network, cost)| (Some(network), cost),
+        );
+        Outcome {
+            network,
+            cost,
+            bound,
+            ended,
+            first_feasible: self.first,
+            elapsed: self.began.elapsed(),
+        }
+    }
+
+    /// A solver's bound may be over the best by its tolerance.
+    fn best_bound(&self) -> f64 {
+        let best = self
+            .best
+            .as_ref()
+            .map_or(f64::INFINITY, |(_, cost)| cost.objective);
+        self.bound.min(best)
+    }
+}

@@ -1,0 +1,115 @@
+//! Annealing in cycles, each longer than the last.
+
+use super::model::Model;
+use super::moves::Walk;
+use super::score::Score;
+use crate::design::Network;
+
+/// A search that can be run move by move.
+#[derive(Debug)]
+pub(super) struct Anneal<'m, 'p> {
+    walk: Walk<'m, 'p>,
+    at: Score,
+    best: Option<Best>,
+    /// Moves of this cycle, and how many it has.
+    done: u64,
+    cycle: u64,
+    hot: f64,
+}
+
+/// The best network that was met.
+#[derive(Clone, Debug)]
+pub(super) struct Best {
+    pub(super) network: Network,
+    pub(super) objective: f64,
+}
+
+const FIRST_CYCLE: u64 = 2000;
+
+impl<'m, 'p> Anneal<'m, 'p> {
+    pub(super) fn new(model: &'m Model<'p>, start: Option<&Network>, seed: u64) -> Self {
+        let mut walk = Walk::new(model, seed);
+        if let Some(start) = start {
+            walk.state
+                .become_network(model, &start.active, &start.rooms);
+        }
+        let at = Score::of(model, &walk.state, &mut walk.ways);
+        let mut anneal = Self {
+            walk,
+            at,
+            best: None,
+            done: 0,
+            cycle: FIRST_CYCLE,
+            hot: model.unit,
+        };
+        anneal.note();
+        anneal
+    }
+
+    pub(super) fn best(&self) -> Option<&Best> {
+        self.best.as_ref()
+    }
+
+    /// One move. Says whether a better network was found.
+    pub(super) fn step(&mut self) -> bool {
+        let share = self.done as f64 / self.cycle as f64;
+        // From the price of an edge to a twentieth of it.
+        let heat = self.hot * 0.05_f64.powf(share);
+        let mark = self.walk.state.mark();
+        self.walk.step();
+        let slack = -heat * (1.0 - self.walk.dice.unit()).ln();
+        let model = self.walk.model;
+        let score = Score::of(model, &self.walk.state, &mut self.walk.ways);
+        let fines = &self.walk.fines;
+        let improved = if fines.total(&score) <= fines.total(&self.at) + slack {
+            self.walk.state.settle();
+            self.at = score;
+            self.note()
+        } else {
+            self.walk.state.undo(model, mark);
+            false
+        };
+        self.walk.fines.follow(&self.at);
+        self.done += 1;
+        if self.done == self.cycle {
+            self.done = 0;
+            self.cycle *= 2;
+            if self.walk.dice.chance(0.5) {
+                self.restart();
+            }
+        }
+        improved
+    }
+
+    /// Goes back to the best network.
+    fn restart(&mut self) {
+        if let Some(best) = &self.best {
+            let walk = &mut self.walk;
+            walk.state
+                .become_network(walk.model, &best.network.active, &best.network.rooms);
+            self.at = Score::of(walk.model, &walk.state, &mut walk.ways);
+        }
+    }
+
+    /// Keeps the network that the search is at, if it is the best.
+    fn note(&mut self) -> bool {
+        let least = self.best.as_ref().map_or(f64::INFINITY, |b| b.objective);
+        if !self.at.is_valid() || self.at.objective >= least - 1e-9 * least.abs().min(1e9) {
+            return false;
+        }
+        let state = &self.walk.state;
+        let mut rooms = state.rooms.placed.items().to_vec();
+        rooms.sort_unstable();
+        self.best = Some(Best {
+            network: Network {
+                active: state.active.clone(),
+                rooms,
+            },
+            objective: self.at.objective,
+        });
+        if !state.charged.is_empty() && self.at.objective > 0.0 {
+            self.hot = self.at.objective / state.charged.len() as f64;
+        }
+        true
+    }
+}

@@ -1,0 +1,527 @@
+//! A problem made ready for the search: what is already decided, and who is
+//! touched by which edge.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use super::lists::{inverse, Lists};
+use crate::design::{EdgeState, Problem};
+
+/// What is decided of an edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Fate {
+    Open,
+    On,
+    Off,
+}
+
+/// The parts of a problem by edge, vertex and face.
+#[derive(Debug)]
+pub(super) struct Model<'p> {
+    pub(super) problem: &'p Problem,
+    pub(super) around: Lists<(usize, usize)>,
+    pub(super) fates: Vec<Fate>,
+    pub(super) given: Vec<bool>,
+    /// Sets of vertices of which one must be active; those implied by others
+    /// left out.
+    pub(super) rows: Lists<usize>,
+    pub(super) rows_at: Lists<usize>,
+    /// Literals of each pattern: an edge, and whether it is to be active.
+    pub(super) patterns: Lists<(usize, bool)>,
+    pub(super) pattern_costs: Vec<Option<f64>>,
+    /// By edge, the patterns with its literal.
+    pub(super) patterns_at: Lists<(usize, bool)>,
+    /// By edge, the patterns that it completes as part of a path.
+    pub(super) triples: Lists<Triple>,
+    /// All paths of all routes, by their edges.
+    pub(super) paths: Lists<usize>,
+    pub(super) paths_at: Lists<usize>,
+    /// The route of each path, and the paths of each route.
+    pub(super) route_of: Vec<usize>,
+    pub(super) routes: Lists<usize>,
+    pub(super) rooms: Option<RoomModel>,
+    /// The way of each vertex to a sink over given edges alone.
+    pub(super) base: Vec<f64>,
+    /// The way over all edges that may be active: no network has a shorter one.
+    pub(super) least: Vec<f64>,
+    /// Given edges that reach no sink by themselves.
+    pub(super) stray: Vec<usize>,
+    /// Shortest cycles, by their edges, and which pass each edge.
+    pub(super) cycles: Lists<usize>,
+    pub(super) cycles_at: Lists<usize>,
+    /// What an average edge costs: the scale of penalties and temperatures.
+    pub(super) unit: f64,
+}
+
+/// A pattern of at most three active edges, seen from one of them: it costs so
+/// much if the others are active too, those to be inactive left aside.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Triple {
+    /// The other edges; twice the same if there is only one.
+    pub(super) others: [usize; 2],
+    /// Infinite if it is forbidden.
+    pub(super) cost: f64,
+    pub(super) pattern: usize,
+}
+
+/// Rooms by edge and face.
+#[derive(Debug)]
+pub(super) struct RoomModel {
+    pub(super) faces: Lists<usize>,
+    pub(super) at_face: Lists<usize>,
+    pub(super) borders: Lists<usize>,
+    pub(super) border_at: Lists<usize>,
+    pub(super) inners: Lists<usize>,
+    pub(super) inner_at: Lists<usize>,
+    /// Placements that can never be: over an obstacle or an active edge.
+    pub(super) barred: Vec<bool>,
+}
+
+/// No network can be valid.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Hopeless;
+
+impl<'p> Model<'p> {
+    pub(super) fn new(problem: &'p Problem) -> Result<Self, Hopeless> {
+        let (vertices, edges) = (problem.vertices, problem.edges());
+        let around = Lists::new(problem.around());
+        let (patterns, pattern_costs) = literals(problem);
+        let mut by_edge = vec![Vec::new(); edges];
+        for p in 0..patterns.len() {
+            for &(e, wanted) in patterns.of(p) {
+                by_edge[e].push((p, wanted));
+            }
+        }
+        let patterns_at = Lists::new(by_edge);
+        let mut fates: Vec<Fate> = (problem.states.iter())
+            .map(|state| match state {
+                EdgeState::Open => Fate::Open,
+                EdgeState::Given | EdgeState::Required => Fate::On,
+                EdgeState::Closed => Fate::Off,
+            })
+            .collect();
+        decide(problem, &around, &patterns, &pattern_costs, &mut fates)?;
+        let usable = |v: usize| around.of(v).iter().any(|&(e, _)| fates[e] != Fate::Off);
+        let settled = |v: usize| around.of(v).iter().any(|&(e, _)| fates[e] == Fate::On);
+        let triples = triples(&patterns, &pattern_costs, &fates);
+        let mut rows: Vec<Vec<usize>> = problem.coverage.clone();
+        rows.extend(problem.required_vertices.iter().map(|&v| vec![v]));
+        rows.retain(|row| !row.iter().any(|&v| settled(v)));
+        for row in &mut rows {
+            row.retain(|&v| usable(v));
+            row.sort_unstable();
+            row.dedup();
+        }
+        if rows.iter().any(Vec::is_empty) {
+            return Err(Hopeless);
+        }
+        let rows = Lists::new(undominated(rows, vertices));
+        let rows_at = inverse(&rows, vertices);
+
+        let given: Vec<bool> = (0..edges).map(|e| problem.is_given(e)).collect();
+        let base = ways(problem, &around, |e| given[e]);
+        let least = ways(problem, &around, |e| fates[e] != Fate::Off);
+        let stray = (0..edges)
+            .filter(|&e| given[e] && base[problem.ends[e][0]].is_infinite())
+            .collect();
+        if (0..edges).any(|e| fates[e] == Fate::On && least[problem.ends[e][0]].is_infinite()) {
+            return Err(Hopeless);
+        }
+        for e in 0..edges {
+            // What reaches no sink is an island.
+            if least[problem.ends[e][0]].is_infinite() {
+                fates[e] = Fate::Off;
+            }
+        }
+
+        let mut route_of = Vec::new();
+        let mut paths = Vec::new();
+        for (r, options) in problem.routes.iter().enumerate() {
+            for path in options {
+                if path.iter().all(|&e| fates[e] != Fate::Off) {
+                    let mut path = path.clone();
+                    path.sort_unstable();
+                    path.dedup();
+                    paths.push(path);
+                    route_of.push(r);
+                }
+            }
+        }
+        let mut routes = vec![Vec::new(); problem.routes.len()];
+        for (k, &r) in route_of.iter().enumerate() {
+            routes[r].push(k);
+        }
+        if routes.iter().any(Vec::is_empty) {
+            return Err(Hopeless);
+        }
+        let paths = Lists::new(paths);
+        let paths_at = inverse(&paths, edges);
+        let rooms = problem
+            .rooms
+            .as_ref()
+            .map(|_| RoomModel::new(problem, &fates));
+        let cycles = cycles(problem, &around, &fates);
+        let cycles_at = inverse(&cycles, edges);
+        let unit = unit(problem, &fates, &least);
+        Ok(Self {
+            problem,
+            around,
+            fates,
+            given,
+            rows,
+            rows_at,
+            patterns,
+            pattern_costs,
+            patterns_at,
+            triples,
+            paths,
+            paths_at,
+            route_of,
+            routes: Lists::new(routes),
+            rooms,
+            base,
+            least,
+            stray,
+            cycles,
+            cycles_at,
+            unit,
+        })
+    }
+
+    /// The price of an edge whose nearer end has this way to a sink.
+    pub(super) fn price(&self, e: usize, away: f64) -> f64 {
+        let p = self.problem;
+        p.length_weight * p.lengths[e] + p.travel_weight * away
+    }
+}
+
+impl RoomModel {
+    fn new(problem: &Problem, fates: &[Fate]) -> Self {
+        let rooms = problem.rooms.as_ref().expect("a floorplan");
+        let list = |of: fn(&crate::design::Placement) -> &Vec<usize>| {
+            Lists::new(
+                (rooms.placements.iter())
+                    .map(|p| {
+                        let mut list = of(p).clone();
+                        list.sort_unstable();
+                        list.dedup();
+                        list
+                    })
+                    .collect(),
+            )
+        };
+        let (faces, borders, inners) =
+            (list(|p| &p.faces), list(|p| &p.border), list(|p| &p.inner));
+        let barred = (rooms.placements.iter().enumerate())
+            .map(|(k, placement)| {
+                // A face named twice would be covered twice.
+                faces.of(k).len() != placement.faces.len()
+                    || faces.of(k).iter().any(|&f| !rooms.covered[f])
+                    || inners.of(k).iter().any(|&e| fates[e] == Fate::On)
+                    || borders.of(k).iter().all(|&e| fates[e] == Fate::Off)
+            })
+            .collect();
+        Self {
+            at_face: inverse(&faces, rooms.covered.len()),
+            border_at: inverse(&borders, problem.edges()),
+            inner_at: inverse(&inners, problem.edges()),
+            faces,
+            borders,
+            inners,
+            barred,
+        }
+    }
+}
+
+/// The literals of each pattern that can occur.
+fn literals(problem: &Problem) -> (Lists<(usize, bool)>, Vec<Option<f64>>) {
+    let mut lists = Vec::with_capacity(problem.patterns.len());
+    let mut costs = Vec::with_capacity(problem.patterns.len());
+    for pattern in &problem.patterns {
+        if pattern.cost == Some(0.0) || pattern.active.iter().any(|e| pattern.inactive.contains(e))
+        {
+            continue;
+        }
+        let on = pattern.active.iter().map(|&e| (e, true));
+        let mut list: Vec<_> = on
+            .chain(pattern.inactive.iter().map(|&e| (e, false)))
+            .collect();
+        list.sort_unstable();
+        list.dedup();
+        lists.push(list);
+        costs.push(pattern.cost);
+    }
+    (Lists::new(lists), costs)
+}
+
+/// The short patterns by edge, but those that cannot occur.
+fn triples(
+    patterns: &Lists<(usize, bool)>,
+    costs: &[Option<f64>],
+    fates: &[Fate],
+) -> Lists<Triple> {
+    let mut found = vec![Vec::new(); fates.len()];
+    for (pattern, cost) in costs.iter().enumerate() {
+        let list = patterns.of(pattern);
+        let never = |&(e, on): &(usize, bool)| fates[e] == if on { Fate::Off } else { Fate::On };
+        let active: Vec<usize> = list.iter().filter(|l| l.1).map(|l| l.0).collect();
+        if !(2..=3).contains(&active.len()) || list.iter().any(never) {
+            continue;
+        }
+        for &e in &active {
+            let mut others = active.iter().copied().filter(|&k| k != e);
+            if let Some(first) = others.next() {
+                found[e].push(Triple {
+                    others: [first, others.next().unwrap_or(first)],
+                    cost: cost.unwrap_or(f64::INFINITY),
+                    pattern,
+                });
+            }
+        }
+    }
+    Lists::new(found)
+}
+
+/// Draws conclusions from forbidden patterns of which one literal is left, and
+/// from vertices where an edge alone would be a dead end.
+fn decide(
+    problem: &Problem,
+    around: &Lists<(usize, usize)>,
+    patterns: &Lists<(usize, bool)>,
+    costs: &[Option<f64>],
+    fates: &mut [Fate],
+) -> Result<(), Hopeless> {
+    loop {
+        let mut changed = false;
+        for (p, _) in costs.iter().enumerate().filter(|(_, cost)| cost.is_none()) {
+            let holds = |(e, wanted): (usize, bool)| match fates[e] {
+                Fate::Open => None,
+                Fate::On => Some(wanted),
+                Fate::Off => Some(!wanted),
+            };
+            let list = patterns.of(p);
+            if list.iter().any(|&l| holds(l) == Some(false)) {
+                continue;
+            }
+            let mut open = list.iter().filter(|&&l| holds(l).is_none());
+            match (open.next(), open.next()) {
+                (None, _) => return Err(Hopeless),
+                (Some(&(e, wanted)), None) => {
+                    fates[e] = if wanted { Fate::Off } else { Fate::On };
+                    changed = true;
+                }
+                _ => {}
+            }
+        }
+        for v in (0..problem.vertices).filter(|&v| !problem.dead_ends && !problem.sinks[v]) {
+            let mut usable = around.of(v).iter().filter(|&&(e, _)| fates[e] != Fate::Off);
+            if let (Some(&(e, _)), None) = (usable.next(), usable.next()) {
+                if fates[e] == Fate::On {
+                    return Err(Hopeless);
+                }
+                fates[e] = Fate::Off;
+                changed = true;
+            }
+        }
+        if !changed {
+            return Ok(());
+        }
+    }
+}
+
+/// Rows that contain no other row.
+fn undominated(mut rows: Vec<Vec<usize>>, vertices: usize) -> Vec<Vec<usize>> {
+    rows.sort_by(|a, b| (a.len(), a).cmp(&(b.len(), b)));
+    rows.dedup();
+    let lists = Lists::new(rows.clone());
+    let at = inverse(&lists, vertices);
+    let mut keep = vec![true; rows.len()];
+    for (k, row) in rows.iter().enumerate() {
+        if !keep[k] {
+            continue;
+        }
+        for &other in at.of(row[0]) {
+            // Sorted: one that contains this one is no shorter, and comes later.
+            if other > k && keep[other] {
+                keep[other] = !row.iter().all(|v| rows[other].binary_search(v).is_ok());
+            }
+        }
+    }
+    let mut kept = keep.into_iter();
+    rows.retain(|_| kept.next() == Some(true));
+    rows
+}
+
+/// The way from each vertex to a sink over some of the edges.
+fn ways(
+    problem: &Problem,
+    around: &Lists<(usize, usize)>,
+    may: impl Fn(usize) -> bool,
+) -> Vec<f64> {
+    let mut away = vec![f64::INFINITY; problem.vertices];
+    let mut queue = BinaryHeap::new();
+    for v in (0..problem.vertices).filter(|&v| problem.sinks[v]) {
+        away[v] = 0.0;
+        // Of numbers that are not negative the bits are in order.
+        queue.push(Reverse((0.0_f64.to_bits(), v)));
+    }
+    while let Some(Reverse((bits, v))) = queue.pop() {
+        let gone = f64::from_bits(bits);
+        if gone > away[v] {
+            continue;
+        }
+        for &(e, w) in around.of(v) {
+            let there = gone + problem.lengths[e];
+            if may(e) && there < away[w] {
+                away[w] = there;
+                queue.push(Reverse((there.to_bits(), w)));
+            }
+        }
+    }
+    away
+}
+
+/// Through each pair of open edges at a vertex the shortest cycle of at most
+/// six edges, each cycle once.
+fn cycles(problem: &Problem, around: &Lists<(usize, usize)>, fates: &[Fate]) -> Lists<usize> {
+    const LONGEST: usize = 6;
+    let mut found = std::collections::BTreeSet::new();
+    let mut seen = vec![usize::MAX; problem.vertices];
+    let mut round = 0;
+    for v in 0..problem.vertices {
+        let open: Vec<_> = (around.of(v).iter())
+            .filter(|&&(e, _)| fates[e] == Fate::Open)
+            .copied()
+            .collect();
+        for (k, &(first, from)) in open.iter().enumerate() {
+            for &(last, to) in &open[k + 1..] {
+                if from == to {
+                    continue;
+                }
+                // From one neighbour to the other around the vertex.
+                round += 1;
+                seen[v] = round;
+                seen[from] = round;
+                let mut queue = vec![(from, usize::MAX, first)];
+                let mut levels = vec![0];
+                let mut at = 0;
+                while at < queue.len() {
+                    let here = queue[at].0;
+                    if here == to {
+                        break;
+                    }
+                    if levels[at] + 3 <= LONGEST {
+                        for &(e, w) in around.of(here) {
+                            if fates[e] == Fate::Open && seen[w] != round {
+                                seen[w] = round;
+                                queue.push((w, at, e));
+                                levels.push(levels[at] + 1);
+                            }
+                        }
+                    }
+                    at += 1;
+                }
+                if at < queue.len() {
+                    let mut cycle = vec![last];
+                    while at != usize::MAX {
+                        cycle.push(queue[at].2);
+                        at = queue[at].1;
+                    }
+                    cycle.sort_unstable();
+                    found.insert(cycle);
+                }
+            }
+        }
+    }
+    Lists::new(found.into_iter().collect())
+}
+
+fn unit(problem: &Problem, fates: &[Fate], least: &[f64]) -> f64 {
+    let (mut sum, mut count) = (0.0, 0);
+    for (e, &[a, b]) in problem.ends.iter().enumerate() {
+        if fates[e] == Fate::Open {
+            sum += problem.length_weight * problem.lengths[e]
+                + problem.travel_weight * least[a].min(least[b]);
+            count += 1;
+        }
+    }
+    // If nothing costs anything, any scale will do.
+    if sum > 0.0 {
+        sum / f64::from(count)
+    } else {
+        1.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{Pattern, PatternKind};
+
+    /// A square with a diagonal 0-2 and a tail 3-4.
+    fn kite() -> Problem {
+        Problem {
+            vertices: 5,
+            ends: vec![[0, 1], [1, 2], [2, 3], [0, 3], [0, 2], [3, 4]],
+            lengths: vec![1.0; 6],
+            states: vec![EdgeState::Open; 6],
+            sinks: vec![true, false, false, false, false],
+            length_weight: 1.0,
+            ..Problem::default()
+        }
+    }
+
+    fn never(active: Vec<usize>, inactive: Vec<usize>) -> Pattern {
+        Pattern {
+            kind: PatternKind::Branch,
+            active,
+            inactive,
+            cost: None,
+        }
+    }
+
+    #[test]
+    fn conclusions_go_on_as_far_as_they_lead() {
+        let mut problem = kite();
+        // The tail is a dead end; with 0-1 required 0-2 may not be, so 2-3
+        // must, and 1-2 has to go on from 1 but is not concluded.
+        problem.states[0] = EdgeState::Required;
+        problem.patterns = vec![never(vec![0, 4], vec![]), never(vec![0], vec![4, 2])];
+        let model = Model::new(&problem).expect("no contradiction");
+        use Fate::{Off, On, Open};
+        assert_eq!(model.fates, [On, Open, On, Open, Off, Off]);
+        problem.patterns.push(never(vec![0, 2], vec![]));
+        assert_eq!(Model::new(&problem).err(), Some(Hopeless));
+        // Nothing covers the end of the tail without a dead end.
+        let mut problem = kite();
+        problem.coverage = vec![vec![4]];
+        assert_eq!(Model::new(&problem).err(), Some(Hopeless));
+        problem.dead_ends = true;
+        assert!(Model::new(&problem).is_ok());
+    }
+
+    #[test]
+    fn rows_that_follow_from_others_are_left_out() {
+        let rows = vec![
+            vec![1, 2, 3],
+            vec![2, 3],
+            vec![0, 4],
+            vec![2, 3],
+            vec![0, 1, 2],
+        ];
+        assert_eq!(
+            undominated(rows, 5),
+            [vec![0, 4], vec![2, 3], vec![0, 1, 2]]
+        );
+    }
+
+    #[test]
+    fn short_cycles_are_found_once() {
+        let problem = kite();
+        let around = Lists::new(problem.around());
+        let found = cycles(&problem, &around, &[Fate::Open; 6]);
+        let found: Vec<&[usize]> = (0..found.len()).map(|k| found.of(k)).collect();
+        assert_eq!(found, [&[0, 1, 2, 3][..], &[0, 1, 4], &[2, 3, 4]]);
+        assert_eq!(cycles(&problem, &around, &[Fate::Off; 6]).len(), 0);
+    }
+}

@@ -1,0 +1,335 @@
+//! A network in the making, with counters of all that can be wrong with it.
+
+use super::lists::Subset;
+use super::model::{Fate, Model};
+
+/// What was done, to be undone.
+#[derive(Clone, Copy, Debug)]
+enum Deed {
+    Flip(usize),
+    Place(usize),
+    Clear(usize),
+}
+
+/// Active edges and placed rooms. Every change keeps the counters right and is
+/// logged, so that it can be taken back.
+#[derive(Clone, Debug)]
+pub(super) struct State {
+    pub(super) active: Vec<bool>,
+    pub(super) degree: Vec<usize>,
+    /// Active edges that may be removed.
+    pub(super) removable: Subset,
+    /// Active edges that were not given.
+    pub(super) charged: Subset,
+    /// Active vertices of each row, and rows with none.
+    covers: Vec<usize>,
+    pub(super) missing: Subset,
+    /// Of those, how many each vertex would cover.
+    gains: Vec<usize>,
+    /// Dead ends where they are forbidden.
+    pub(super) dead_ends: Subset,
+    /// Literals of each pattern that do not hold.
+    pub(super) unmet: Vec<usize>,
+    /// Forbidden patterns that occur.
+    pub(super) broken: Subset,
+    pub(super) pattern_cost: f64,
+    pub(super) length: f64,
+    /// Edges of each path that are not active, whole paths of each route, and
+    /// routes without.
+    pub(super) lacking: Vec<usize>,
+    whole: Vec<usize>,
+    pub(super) cut: Subset,
+    pub(super) rooms: Rooms,
+    log: Vec<Deed>,
+}
+
+/// Placed rooms; empty for streets.
+#[derive(Clone, Debug)]
+pub(super) struct Rooms {
+    pub(super) placed: Subset,
+    /// The room on each face.
+    pub(super) owner: Vec<Option<usize>>,
+    /// Active edges on the border of each placement, and inside.
+    doors: Vec<usize>,
+    crossings: Vec<usize>,
+    /// Placed rooms without a door, and with a corridor inside.
+    pub(super) shut: Subset,
+    pub(super) crossed: Subset,
+    /// Placed rooms that have each edge inside.
+    pub(super) inside: Vec<usize>,
+    /// Faces to be covered without a room.
+    pub(super) bare: Subset,
+}
+
+impl State {
+    /// The edges that are active in any case, and no rooms.
+    pub(super) fn new(model: &Model<'_>) -> Self {
+        let (vertices, edges) = (model.problem.vertices, model.problem.edges());
+        let placements = model.rooms.as_ref().map_or(0, |r| r.faces.len());
+        let covered = model.problem.rooms.as_ref().map_or(&[][..], |r| &r.covered);
+        let mut bare = Subset::new(covered.len());
+        (0..covered.len())
+            .filter(|&f| covered[f])
+            .for_each(|f| bare.insert(f));
+        let mut state = Self {
+            active: vec![false; edges],
+            degree: vec![0; vertices],
+            removable: Subset::new(edges),
+            charged: Subset::new(edges),
+            covers: vec![0; model.rows.len()],
+            missing: all(model.rows.len()),
+            gains: (0..vertices).map(|v| model.rows_at.of(v).len()).collect(),
+            dead_ends: Subset::new(vertices),
+            unmet: (0..model.patterns.len())
+                .map(|p| model.patterns.of(p).iter().filter(|l| l.1).count())
+                .collect(),
+            broken: Subset::new(model.patterns.len()),
+            pattern_cost: 0.0,
+            length: 0.0,
+            lacking: (0..model.paths.len())
+                .map(|k| model.paths.of(k).len())
+                .collect(),
+            whole: vec![0; model.routes.len()],
+            cut: all(model.routes.len()),
+            rooms: Rooms {
+                placed: Subset::new(placements),
+                owner: vec![None; covered.len()],
+                doors: vec![0; placements],
+                crossings: vec![0; placements],
+                shut: Subset::new(placements),
+                crossed: Subset::new(placements),
+                inside: vec![0; edges],
+                bare,
+            },
+            log: Vec::new(),
+        };
+        for k in 0..model.paths.len() {
+            if state.lacking[k] == 0 {
+                state.whole[model.route_of[k]] += 1;
+                state.cut.remove(model.route_of[k]);
+            }
+        }
+        for p in (0..model.patterns.len()).filter(|&p| state.unmet[p] == 0) {
+            match model.pattern_costs[p] {
+                Some(cost) => state.pattern_cost += cost,
+                None => state.broken.insert(p),
+            }
+        }
+        for e in (0..edges).filter(|&e| model.fates[e] == Fate::On) {
+            state.flip(model, e);
+        }
+        state.log.clear();
+        state
+    }
+
+    /// Makes an edge active, or inactive if it was.
+    pub(super) fn flip(&mut self, model: &Model<'_>, e: usize) {
+        self.log.push(Deed::Flip(e));
+        self.apply(model, e);
+    }
+
+    fn apply(&mut self, model: &Model<'_>, e: usize) {
+        let on = !self.active[e];
+        self.active[e] = on;
+        if model.fates[e] == Fate::Open {
+            self.removable.set(e, on);
+        }
+        if !model.given[e] {
+            self.charged.set(e, on);
+            let length = model.problem.lengths[e];
+            self.length += if on { length } else { -length };
+        }
+        for v in model.problem.ends[e] {
+            let before = self.degree[v];
+            self.degree[v] = if on { before + 1 } else { before - 1 };
+            if before.min(self.degree[v]) == 0 {
+                self.touch(model, v, on);
+            }
+            if !model.problem.dead_ends && !model.problem.sinks[v] {
+                self.dead_ends.set(v, self.degree[v] == 1);
+            }
+        }
+        for &(p, wanted) in model.patterns_at.of(e) {
+            let before = self.unmet[p];
+            self.unmet[p] = if on == wanted { before - 1 } else { before + 1 };
+            if before.min(self.unmet[p]) == 0 {
+                let occurs = self.unmet[p] == 0;
+                match model.pattern_costs[p] {
+                    None => self.broken.set(p, occurs),
+                    Some(cost) => self.pattern_cost += if occurs { cost } else { -cost },
+                }
+            }
+        }
+        for &k in model.paths_at.of(e) {
+            let before = self.lacking[k];
+            self.lacking[k] = if on { before - 1 } else { before + 1 };
+            if before.min(self.lacking[k]) == 0 {
+                let route = model.route_of[k];
+                self.whole[route] = if on {
+                    self.whole[route] + 1
+                } else {
+                    self.whole[route] - 1
+                };
+                self.cut.set(route, self.whole[route] == 0);
+            }
+        }
+        if let Some(rooms) = &model.rooms {
+            self.rooms.corridor(rooms, e, on);
+        }
+    }
+
+    /// A vertex has become active, or inactive.
+    fn touch(&mut self, model: &Model<'_>, v: usize, on: bool) {
+        for &row in model.rows_at.of(v) {
+            if on {
+                self.covers[row] += 1;
+                if self.covers[row] == 1 {
+                    self.missing.remove(row);
+                    model.rows.of(row).iter().for_each(|&v| self.gains[v] -= 1);
+                }
+            } else {
+                self.covers[row] -= 1;
+                if self.covers[row] == 0 {
+                    self.missing.insert(row);
+                    model.rows.of(row).iter().for_each(|&v| self.gains[v] += 1);
+                }
+            }
+        }
+    }
+
+    /// Places a room on bare faces.
+    pub(super) fn place(&mut self, model: &Model<'_>, room: usize) {
+        self.log.push(Deed::Place(room));
+        self.set_room(model, room, true);
+    }
+
+    /// Takes a room away.
+    pub(super) fn clear(&mut self, model: &Model<'_>, room: usize) {
+        self.log.push(Deed::Clear(room));
+        self.set_room(model, room, false);
+    }
+
+    fn set_room(&mut self, model: &Model<'_>, room: usize, on: bool) {
+        let rooms = model.rooms.as_ref().expect("only floorplans have rooms");
+        self.rooms.set(rooms, room, on);
+    }
+
+    /// Rows that a vertex would cover and that nothing covers.
+    pub(super) fn gain(&self, v: usize) -> usize {
+        self.gains[v]
+    }
+
+    /// Whether the edges that have to be inactive in a pattern are.
+    pub(super) fn allows(&self, model: &Model<'_>, pattern: usize) -> bool {
+        (model.patterns.of(pattern).iter()).all(|&(e, on)| on || !self.active[e])
+    }
+
+    /// Whether a path may end here: at a sink or an active vertex.
+    pub(super) fn is_stop(&self, model: &Model<'_>, v: usize) -> bool {
+        self.degree[v] > 0 || model.problem.sinks[v]
+    }
+
+    /// What was done so far, to come back to.
+    pub(super) fn mark(&self) -> usize {
+        self.log.len()
+    }
+
+    /// Takes back all that was done since.
+    pub(super) fn undo(&mut self, model: &Model<'_>, mark: usize) {
+        while self.log.len() > mark {
+            match self.log.pop() {
+                Some(Deed::Flip(e)) => self.apply(model, e),
+                Some(Deed::Place(room)) => self.set_room(model, room, false),
+                Some(Deed::Clear(room)) => self.set_room(model, room, true),
+                None => break,
+            }
+        }
+    }
+
+    /// Forgets what was done: it stays.
+    pub(super) fn settle(&mut self) {
+        self.log.clear();
+    }
+
+    /// Becomes the network with these edges and rooms.
+    pub(super) fn become_network(&mut self, model: &Model<'_>, active: &[bool], rooms: &[usize]) {
+        for (e, &on) in active.iter().enumerate() {
+            if self.active[e] != on {
+                self.flip(model, e);
+            }
+        }
+        for room in self.rooms.placed.items().to_vec() {
+            if !rooms.contains(&room) {
+                self.clear(model, room);
+            }
+        }
+        for &room in rooms {
+            if !self.rooms.placed.contains(room) {
+                self.place(model, room);
+            }
+        }
+        self.settle();
+        // Sums of many differences drift; here they are set right.
+        self.length = (0..active.len())
+            .filter(|&e| active[e] && !model.given[e])
+            .map(|e| model.problem.lengths[e])
+            .sum();
+        self.pattern_cost = (0..self.unmet.len())
+            .filter(|&p| self.unmet[p] == 0)
+            .filter_map(|p| model.pattern_costs[p])
+            .sum();
+    }
+}
+
+impl Rooms {
+    fn corridor(&mut self, rooms: &super::model::RoomModel, e: usize, on: bool) {
+        for &p in rooms.border_at.of(e) {
+            self.doors[p] = if on {
+                self.doors[p] + 1
+            } else {
+                self.doors[p] - 1
+            };
+            if self.placed.contains(p) {
+                self.shut.set(p, self.doors[p] == 0);
+            }
+        }
+        for &p in rooms.inner_at.of(e) {
+            self.crossings[p] = if on {
+                self.crossings[p] + 1
+            } else {
+                self.crossings[p] - 1
+            };
+            if self.placed.contains(p) {
+                self.crossed.set(p, self.crossings[p] > 0);
+            }
+        }
+    }
+
+    fn set(&mut self, rooms: &super::model::RoomModel, room: usize, on: bool) {
+        self.placed.set(room, on);
+        self.shut.set(room, on && self.doors[room] == 0);
+        self.crossed.set(room, on && self.crossings[room] > 0);
+        for &f in rooms.faces.of(room) {
+            self.owner[f] = on.then_some(room);
+            self.bare.set(f, !on);
+        }
+        for &e in rooms.inners.of(room) {
+            self.inside[e] = if on {
+                self.inside[e] + 1
+            } else {
+                self.inside[e] - 1
+            };
+        }
+    }
+
+    /// Whether a placement would have a door, and no corridor inside.
+    pub(super) fn would_do(&self, room: usize) -> (bool, bool) {
+        (self.doors[room] > 0, self.crossings[room] == 0)
+    }
+}
+
+fn all(count: usize) -> Subset {
+    let mut subset = Subset::new(count);
+    (0..count).for_each(|k| subset.insert(k));
+    subset
+}

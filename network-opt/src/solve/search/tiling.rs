@@ -1,0 +1,184 @@
+//! Rooms: exact tilings of bare faces, and new tilings of a few rooms.
+
+use super::model::RoomModel;
+use super::moves::Walk;
+
+/// Placements that are tried for one tiling.
+const TRIES: usize = 300;
+
+impl Walk<'_, '_> {
+    /// Tiles all faces that are bare. Says whether it could; otherwise nothing
+    /// has changed.
+    pub(super) fn tile_bare(&mut self) -> bool {
+        let bare = self.state.rooms.bare.items().to_vec();
+        let mut tries = TRIES + 2 * bare.len();
+        self.tile(&bare, false, &mut tries)
+    }
+
+    /// Tiles the faces of some rooms around one anew, without corridors inside.
+    /// Says whether it could; otherwise nothing has changed.
+    pub(super) fn retile(&mut self, room: usize, count: usize) -> bool {
+        let Some(rooms) = &self.model.rooms else {
+            return false;
+        };
+        let mut region = vec![room];
+        for _ in 0..8 * count {
+            if region.len() >= count {
+                break;
+            }
+            let near = self.dice.pick(&region);
+            let near = near.and_then(|r| self.neighbour(rooms, r));
+            if let Some(other) = near.filter(|r| !region.contains(r)) {
+                region.push(other);
+            }
+        }
+        let mark = self.state.mark();
+        let mut faces: Vec<usize> = Vec::new();
+        for &room in &region {
+            faces.extend(rooms.faces.of(room));
+            self.state.clear(self.model, room);
+        }
+        let mut tries = TRIES;
+        if self.tile(&faces, true, &mut tries) {
+            return true;
+        }
+        self.state.undo(self.model, mark);
+        false
+    }
+
+    /// Another room on the border of a room.
+    fn neighbour(&mut self, rooms: &RoomModel, room: usize) -> Option<usize> {
+        let e = self.dice.pick(rooms.borders.of(room))?;
+        let beside = rooms.border_at.of(e).iter();
+        let mut placed = beside.filter(|&&p| p != room && self.state.rooms.placed.contains(p));
+        placed.next().copied()
+    }
+
+    /// Covers faces, all of them bare, by placements that fit, the face with
+    /// the fewest of them first, those that have a door already before others.
+    fn tile(&mut self, faces: &[usize], strict: bool, tries: &mut usize) -> bool {
+        let model = self.model;
+        let Some(rooms) = &model.rooms else {
+            return false;
+        };
+        let placed = &self.state.rooms;
+        let fits = |p: usize| {
+            !rooms.barred[p]
+                && (!strict || placed.would_do(p).1)
+                && rooms.faces.of(p).iter().all(|&f| placed.bare.contains(f))
+        };
+        let mut tightest: Option<(usize, usize)> = None;
+        for &f in faces.iter().filter(|&&f| placed.bare.contains(f)) {
+            let most = tightest.map_or(usize::MAX, |(count, _)| count);
+            let count = rooms
+                .at_face
+                .of(f)
+                .iter()
+                .filter(|&&p| fits(p))
+                .take(most)
+                .count();
+            if count < most {
+                tightest = Some((count, f));
+            }
+            if count == 0 {
+                return false;
+            }
+        }
+        let Some((_, face)) = tightest else {
+            return true;
+        };
+        let mut options: Vec<(bool, u64, usize)> = (rooms.at_face.of(face).iter())
+            .filter(|&&p| fits(p))
+            .map(|&p| (!placed.would_do(p).0, self.dice.bits(), p))
+            .collect();
+        options.sort_unstable();
+        for (_, _, p) in options {
+            if *tries == 0 {
+                return false;
+            }
+            *tries -= 1;
+            let mark = self.state.mark();
+            self.state.place(model, p);
+            if self.tile(faces, strict, tries) {
+                return true;
+            }
+            self.state.undo(model, mark);
+        }
+        false
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::{EdgeState, Placement, Problem, Rooms};
+    use crate::solve::search::model::Model;
+
+    /// A row of eight squares and rooms of so many of them in a row; the edges
+    /// across it are 0 to 8, above 9 to 16, below 17 to 24.
+    fn corridor(widths: &[usize]) -> Problem {
+        let mut ends: Vec<[usize; 2]> = (0..9).map(|k| [k, k + 9]).collect();
+        ends.extend((0..8).map(|k| [k + 9, k + 10]));
+        ends.extend((0..8).map(|k| [k, k + 1]));
+        let placements = (widths.iter())
+            .flat_map(|&w| (0..=8 - w).map(move |at| (at, w)))
+            .map(|(at, w)| Placement {
+                template: "room".into(),
+                faces: (at..at + w).collect(),
+                inner: (at + 1..at + w).collect(),
+                border: [at, at + w]
+                    .into_iter()
+                    .chain((at..at + w).flat_map(|k| [9 + k, 17 + k]))
+                    .collect(),
+            });
+        let mut sinks = vec![false; 18];
+        sinks[0] = true;
+        Problem {
+            vertices: 18,
+            lengths: vec![1.0; 25],
+            states: vec![EdgeState::Open; 25],
+            sinks,
+            rooms: Some(Rooms {
+                placements: placements.collect(),
+                covered: vec![true; 8],
+            }),
+            length_weight: 1.0,
+            ends,
+            ..Problem::default()
+        }
+    }
+
+    #[test]
+    fn bare_faces_are_tiled_if_they_can_be() {
+        for (widths, possible) in [
+            (&[3, 5][..], true),
+            (&[2], true),
+            (&[3], false),
+            (&[5], false),
+        ] {
+            let problem = corridor(widths);
+            let model = Model::new(&problem).expect("no contradiction");
+            let mut walk = Walk::new(&model, 0);
+            assert_eq!(walk.tile_bare(), possible, "{widths:?}");
+            assert_eq!(walk.state.rooms.bare.len(), if possible { 0 } else { 8 });
+        }
+    }
+
+    #[test]
+    fn new_tilings_keep_out_of_corridors() {
+        let problem = corridor(&[1, 2, 3]);
+        let model = Model::new(&problem).expect("no contradiction");
+        let mut walk = Walk::new(&model, 3);
+        assert!(walk.tile_bare());
+        walk.state.flip(&model, 4);
+        for _ in 0..100 {
+            if let Some(room) = walk.dice.pick(walk.state.rooms.placed.items()) {
+                walk.retile(room, 3);
+            }
+            assert!(walk.state.rooms.bare.is_empty());
+        }
+        // Edge 4 lies between the fourth and the fifth square.
+        assert_ne!(walk.state.rooms.owner[3], walk.state.rooms.owner[4]);
+        assert!(walk.state.rooms.crossed.is_empty());
+    }
+}

@@ -1,0 +1,106 @@
+//! One solver after another, each from what the one before it found.
+
+use std::time::Duration;
+
+use super::{Ended, Limits, NetworkSolver, Outcome, Progress, Search, Watch};
+use crate::design::{Network, Problem};
+use crate::error::DesignError;
+
+/// A search for the first part of the time, then another solver, which takes
+/// the network found as its start: a good network in a second, and its proof
+/// after.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Started<N> {
+    /// What goes first.
+    pub search: Search,
+    /// What goes on.
+    pub then: N,
+    /// Part of the time that the search has, 0 to 1.
+    ///
+    /// Default value: 0.15.
+    pub share: f64,
+    /// Most that the search has, and what it has without a deadline.
+    ///
+    /// Default value: 4 s.
+    pub most: Duration,
+}
+
+impl<N> Started<N> {
+    /// With default options.
+    pub fn new(then: N) -> Self {
+        Self {
+            search: Search::default(),
+            then,
+            share: 0.15,
+            most: Duration::from_secs(4),
+        }
+    }
+}
+
+impl<N: NetworkSolver> NetworkSolver for Started<N> {
+    fn solve(
+        &self,
+        problem: &Problem,
+        start: Option<&Network>,
+        limits: &Limits,
+        watch: &mut Watch<'_>,
+    ) -> Result<Outcome, DesignError> {
+        let share = self.share.clamp(0.0, 1.0);
+        let time = limits
+            .deadline
+            .map_or(self.most, |deadline| deadline.mul_f64(share).min(self.most));
+        in_turn(
+            (&self.search, time),
+            &self.then,
+            problem,
+            start,
+            limits,
+            watch,
+        )
+    }
+}
+
+/// `first` for so much of the time, then `then`. What the first proves, or a
+/// watch that stops it, is the end.
+pub(super) fn in_turn(
+    (first, time): (&dyn NetworkSolver, Duration),
+    then: &dyn NetworkSolver,
+    problem: &Problem,
+    start: Option<&Network>,
+    limits: &Limits,
+    watch: &mut Watch<'_>,
+) -> Result<Outcome, DesignError> {
+    let early = Limits {
+        deadline: Some(limits.deadline.map_or(time, |deadline| deadline.min(time))),
+        ..limits.clone()
+    };
+    let found = first.solve(problem, start, &early, watch)?;
+    if found.ended != Ended::Deadline {
+        return Ok(found);
+    }
+    let spent = found.elapsed;
+    let late = Limits {
+        deadline: limits
+            .deadline
+            .map(|deadline| deadline.saturating_sub(spent)),
+        ..limits.clone()
+    };
+    let mut later = |progress: &Progress<'_>| {
+        watch(&Progress {
+            elapsed: progress.elapsed + spent,
+            bound: progress.bound.max(found.bound),
+            ..*progress
+        })
+    };
+    let best = found.network.as_ref().or(start);
+    let mut outcome = then.solve(problem, best, &late, &mut later)?;
+    outcome.elapsed += spent;
+    outcome.bound = outcome.bound.max(found.bound);
+    outcome.first_feasible = found
+        .first_feasible
+        .or(outcome.first_feasible.map(|first| first + spent));
+    if outcome.network.is_none() && outcome.ended != Ended::Infeasible {
+        (outcome.network, outcome.cost) = (found.network, found.cost);
+    }
+    Ok(outcome)
+}
