@@ -58,6 +58,9 @@ pub struct FieldStudy {
     pub(crate) options: FieldOptions,
 }
 
+/// Most smooth pieces of a boundary that a harmonic field takes: more than its
+/// own default, for the coasts of whole towns. Each costs eighty bytes a vertex.
+const MOST_PIECES: usize = 500;
 /// Most vertices of a mesh: some 3 GB.
 const MOST_VERTICES: usize = 4_000_000;
 
@@ -180,6 +183,7 @@ fn design(domain: &Domain, options: &FieldOptions) -> std::result::Result<Field,
         FieldKind::Harmonic => {
             let seeded = HarmonicField {
                 seed: options.seed,
+                max_pieces: MOST_PIECES,
                 ..HarmonicField::DEFAULT
             };
             seeded.design(domain).map(smoothed)
