@@ -351,25 +351,14 @@ impl Specification {
 mod tests {
     use super::*;
     use crate::design::{verify, Network, Violation};
-    use geo_types::coord;
-
-    fn grid(side: usize) -> Tessellation {
-        let wide = side + 1;
-        let points = (0..wide * wide)
-            .map(|k| coord! { x: (k % wide) as f64, y: (k / wide) as f64 })
-            .collect();
-        let faces = (0..side * side).map(|k| {
-            let a = k / side * wide + k % side;
-            vec![a, a + 1, a + wide + 1, a + wide]
-        });
-        Tessellation::new(points, faces.collect()).expect("a grid")
-    }
 
     /// The paper's figure 2: 312 edges of which 48 are the boundary's, 48 more
     /// are parallel to one, and 192 pairs are too close.
     #[test]
     fn the_grid_of_figure_two() {
-        let problem = Specification::default().on(&grid(12)).expect("fits");
+        let problem = Specification::default()
+            .on(&Tessellation::grid(12, 12))
+            .expect("fits");
         let count = |state| problem.states.iter().filter(|&&s| s == state).count();
         assert_eq!(problem.edges(), 312);
         assert_eq!(
@@ -386,7 +375,7 @@ mod tests {
 
     #[test]
     fn routes_and_obstacles_fix_edges() {
-        let mesh = grid(4);
+        let mesh = Tessellation::grid(4, 4);
         let spec = Specification {
             rim: Rim::Open,
             too_close: Feature::Free,
@@ -433,7 +422,7 @@ mod tests {
     /// On a single crossing: each feature is what its name says.
     #[test]
     fn features_are_what_they_are_called() {
-        let mesh = grid(2);
+        let mesh = Tessellation::grid(2, 2);
         let spec = Specification {
             rim: Rim::Open,
             zig_zags: Feature::Free,

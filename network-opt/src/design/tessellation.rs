@@ -347,26 +347,30 @@ fn sides(face: &[usize]) -> impl Iterator<Item = (usize, usize)> + '_ {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use geo_types::coord;
-
+impl Tessellation {
     /// A grid of unit squares.
-    pub(crate) fn grid(columns: usize, rows: usize) -> Tessellation {
+    pub(crate) fn grid(columns: usize, rows: usize) -> Self {
         let wide = columns + 1;
-        let points = (0..wide * (rows + 1))
-            .map(|k| coord! { x: (k % wide) as f64, y: (k / wide) as f64 })
-            .collect();
+        let points = (0..wide * (rows + 1)).map(|k| Coord {
+            x: (k % wide) as f64,
+            y: (k / wide) as f64,
+        });
         let faces = (0..columns * rows).map(|k| {
             let a = k / columns * wide + k % columns;
             vec![a, a + 1, a + wide + 1, a + wide]
         });
-        Tessellation::new(points, faces.collect()).expect("a grid")
+        Self::new(points.collect(), faces.collect()).expect("a grid")
     }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use geo_types::coord;
 
     #[test]
     fn a_grid_is_counted_right() {
-        let mesh = grid(4, 3);
+        let mesh = Tessellation::grid(4, 3);
         assert_eq!((mesh.points().len(), mesh.faces().len()), (20, 12));
         assert_eq!(mesh.edges().len(), 4 * 4 + 3 * 5);
         assert_eq!(mesh.rim().filter(|&r| r).count(), 14);
@@ -374,7 +378,7 @@ mod tests {
         // S and Z for each of the 31 - 14 inner edges.
         assert_eq!(mesh.zig_zags().len(), 34);
         // Within two steps of an inner vertex lie 13 of an endless grid.
-        assert_eq!(grid(6, 6).ball(24, 2).len(), 13);
+        assert_eq!(Tessellation::grid(6, 6).ball(24, 2).len(), 13);
         assert_eq!(mesh.around(6).len(), 4);
         assert_eq!(mesh.edge_between(0, 6), None);
     }
@@ -382,7 +386,7 @@ mod tests {
     /// A long way that a shorter one follows: around a flat square.
     #[test]
     fn reach_is_by_the_shortest_way() {
-        let mesh = grid(6, 6);
+        let mesh = Tessellation::grid(6, 6);
         let (mut a, mut b) = (mesh.within(24, 2.5), mesh.ball(24, 2));
         a.sort_unstable();
         b.sort_unstable();
@@ -402,7 +406,7 @@ mod tests {
 
     #[test]
     fn the_next_level_has_four_quads_for_one() {
-        let mesh = grid(3, 2);
+        let mesh = Tessellation::grid(3, 2);
         let fine = mesh.refined();
         assert_eq!(fine.faces().len(), 24);
         assert_eq!(fine.edges().len(), 6 * 5 + 7 * 4);
@@ -418,7 +422,7 @@ mod tests {
     /// Each zig-zag is a path whose ends lie on different sides of its middle.
     #[test]
     fn zig_zags_turn_both_ways() {
-        let mesh = grid(3, 3);
+        let mesh = Tessellation::grid(3, 3);
         for [e, a, b] in mesh.zig_zags() {
             let [p, q] = mesh.edges()[e];
             let other = |k: usize, v: usize| {

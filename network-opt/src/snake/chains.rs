@@ -173,24 +173,11 @@ fn walk(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use geo_types::coord;
-
-    fn grid(side: usize) -> Tessellation {
-        let wide = side + 1;
-        let points = (0..wide * wide)
-            .map(|k| coord! { x: (k % wide) as f64, y: (k / wide) as f64 })
-            .collect();
-        let faces = (0..side * side).map(|k| {
-            let a = k / side * wide + k % side;
-            vec![a, a + 1, a + wide + 1, a + wide]
-        });
-        Tessellation::new(points, faces.collect()).expect("a grid")
-    }
 
     /// All edges of a grid: its lines, and each once.
     #[test]
     fn a_grid_is_its_lines() {
-        let mesh = grid(3);
+        let mesh = Tessellation::grid(3, 3);
         let found = snakes(&mesh, &vec![true; mesh.edges().len()], 0.8);
         let mut edges: Vec<usize> = found.iter().flat_map(|s| s.edges.clone()).collect();
         edges.sort_unstable();
@@ -213,7 +200,7 @@ mod tests {
     /// other.
     #[test]
     fn stairs_go_on_and_ts_end() {
-        let mesh = grid(3);
+        let mesh = Tessellation::grid(3, 3);
         let on = |pairs: &[(usize, usize)]| {
             let mut active = vec![false; mesh.edges().len()];
             for &(a, b) in pairs {
