@@ -50,6 +50,11 @@ impl<'m, 'p> Anneal<'m, 'p> {
         self.best.as_ref()
     }
 
+    /// Whether it is certain that no network is valid.
+    pub(super) fn is_hopeless(&self) -> bool {
+        self.walk.untileable
+    }
+
     /// One move. Says whether a better network was found.
     pub(super) fn step(&mut self) -> bool {
         let share = self.done as f64 / self.cycle as f64;

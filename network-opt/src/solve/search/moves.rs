@@ -22,6 +22,8 @@ pub(super) struct Walk<'m, 'p> {
     pub(super) moves: u64,
     /// Vertices near what the move has removed.
     near: Vec<usize>,
+    /// Whether it is certain that the rooms tile the faces in no way.
+    pub(super) untileable: bool,
 }
 
 impl<'m, 'p> Walk<'m, 'p> {
@@ -36,6 +38,7 @@ impl<'m, 'p> Walk<'m, 'p> {
             added: vec![0; model.problem.edges()],
             moves: 0,
             near: Vec::new(),
+            untileable: false,
         }
     }
 

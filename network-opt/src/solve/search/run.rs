@@ -13,7 +13,7 @@ use crate::error::DesignError;
 use crate::solve::{Ended, Limits, Outcome, Progress, Watch};
 
 /// Between two reports.
-const PACE: Duration = Duration::from_millis(30);
+const PACE: Duration = Duration::from_millis(20);
 
 /// What threads tell each other.
 struct Shared {
@@ -170,6 +170,11 @@ impl Lead<'_> {
             }
             pending |= anneal.step();
             moves += 1;
+            if anneal.is_hopeless() {
+                self.outcome.ended = Ended::Infeasible;
+                self.outcome.bound = f64::INFINITY;
+                return;
+            }
             // The bound begins after the first networks, and then goes along.
             if moves >= 200 && moves % 8 == 0 {
                 let bound = bound.get_or_insert_with(|| Bound::new(model));

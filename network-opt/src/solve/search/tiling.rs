@@ -12,7 +12,11 @@ impl Walk<'_, '_> {
     pub(super) fn tile_bare(&mut self) -> bool {
         let bare = self.state.rooms.bare.items().to_vec();
         let mut tries = TRIES + 2 * bare.len();
-        self.tile(&bare, false, &mut tries)
+        let all = self.state.rooms.placed.is_empty();
+        let tiled = self.tile(&bare, false, &mut tries);
+        // With tries left everything was tried.
+        self.untileable |= all && !tiled && tries > 0;
+        tiled
     }
 
     /// Tiles the faces of some rooms around one anew, without corridors inside.
@@ -160,6 +164,7 @@ mod tests {
             let model = Model::new(&problem).expect("no contradiction");
             let mut walk = Walk::new(&model, 0);
             assert_eq!(walk.tile_bare(), possible, "{widths:?}");
+            assert_eq!(walk.untileable, !possible, "{widths:?}");
             assert_eq!(walk.state.rooms.bare.len(), if possible { 0 } else { 8 });
         }
     }
