@@ -47,7 +47,9 @@ use crate::error::DesignError;
 ///
 /// Each of [`Limits::threads`] threads searches on its own, from its own
 /// random stream. With [`moves`](Self::moves) given and no deadline the result
-/// depends on the problem, the start, the seed and the number of threads alone.
+/// depends on the problem, the start, the seed and the number of threads alone
+/// (of several threads, unless a proof by one that is not the first ends the
+/// search early).
 ///
 /// # Examples
 ///
