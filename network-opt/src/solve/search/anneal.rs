@@ -2,7 +2,7 @@
 
 use super::model::Model;
 use super::moves::Walk;
-use super::score::Score;
+use super::score::{Fines, Score};
 use crate::design::Network;
 
 /// A search that can be run move by move.
@@ -79,6 +79,11 @@ impl<'m, 'p> Anneal<'m, 'p> {
         if self.done == self.cycle {
             self.done = 0;
             self.cycle *= 2;
+            // Where nothing valid was found fines have grown until nothing
+            // moved any more.
+            if self.best.is_none() {
+                self.walk.fines = Fines::new(model.unit);
+            }
             if self.walk.dice.chance(0.5) {
                 self.restart();
             }
