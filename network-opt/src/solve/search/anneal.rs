@@ -3,6 +3,7 @@
 use super::model::Model;
 use super::moves::Walk;
 use super::score::{Fines, Score};
+use super::state::State;
 use crate::design::Network;
 
 /// A search that can be run move by move.
@@ -79,16 +80,22 @@ impl<'m, 'p> Anneal<'m, 'p> {
         if self.done == self.cycle {
             self.done = 0;
             self.cycle *= 2;
-            // Where nothing valid was found fines have grown until nothing
-            // moved any more.
             if self.best.is_none() {
-                self.walk.fines = Fines::new(model.unit);
-            }
-            if self.walk.dice.chance(0.5) {
+                self.afresh();
+            } else if self.walk.dice.chance(0.5) {
                 self.restart();
             }
         }
         improved
+    }
+
+    /// Begins again from nothing. Where nothing valid was found fines have grown
+    /// until nothing moved any more.
+    fn afresh(&mut self) {
+        let walk = &mut self.walk;
+        walk.fines = Fines::new(walk.model.unit);
+        walk.state = State::new(walk.model);
+        self.at = Score::of(walk.model, &walk.state, &mut walk.ways);
     }
 
     /// Goes back to the best network.
