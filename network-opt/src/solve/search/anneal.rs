@@ -2,7 +2,8 @@
 
 use super::model::Model;
 use super::moves::Walk;
-use super::score::Score;
+use super::score::{Fines, Score};
+use super::state::State;
 use crate::design::Network;
 
 /// A search that can be run move by move.
@@ -50,6 +51,11 @@ impl<'m, 'p> Anneal<'m, 'p> {
         self.best.as_ref()
     }
 
+    /// Whether it is certain that no network is valid.
+    pub(super) fn is_hopeless(&self) -> bool {
+        self.walk.untileable
+    }
+
     /// One move. Says whether a better network was found.
     pub(super) fn step(&mut self) -> bool {
         let share = self.done as f64 / self.cycle as f64;
@@ -74,11 +80,22 @@ impl<'m, 'p> Anneal<'m, 'p> {
         if self.done == self.cycle {
             self.done = 0;
             self.cycle *= 2;
-            if self.walk.dice.chance(0.5) {
+            if self.best.is_none() {
+                self.afresh();
+            } else if self.walk.dice.chance(0.5) {
                 self.restart();
             }
         }
         improved
+    }
+
+    /// Begins again from nothing. Where nothing valid was found fines have grown
+    /// until nothing moved any more.
+    fn afresh(&mut self) {
+        let walk = &mut self.walk;
+        walk.fines = Fines::new(walk.model.unit);
+        walk.state = State::new(walk.model);
+        self.at = Score::of(walk.model, &walk.state, &mut walk.ways);
     }
 
     /// Goes back to the best network.

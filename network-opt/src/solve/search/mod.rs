@@ -41,12 +41,15 @@ use crate::error::DesignError;
 /// [`Ended::Proven`](super::Ended::Proven) if the bound meets the objective
 /// (within [`Limits::gap`]), and with
 /// [`Ended::Infeasible`](super::Ended::Infeasible) only where simple
-/// conclusions show that nothing is valid: it may well run to the deadline on
-/// a problem that has no solution, and then gives no network.
+/// conclusions show that nothing is valid, or where the rooms tile the faces in
+/// no way: it may well run to the deadline on a problem that has no solution,
+/// and then gives no network.
 ///
 /// Each of [`Limits::threads`] threads searches on its own, from its own
 /// random stream. With [`moves`](Self::moves) given and no deadline the result
-/// depends on the problem, the start, the seed and the number of threads alone.
+/// depends on the problem, the start, the seed and the number of threads alone
+/// (of several threads, unless a proof by one that is not the first ends the
+/// search early).
 ///
 /// # Examples
 ///

@@ -8,6 +8,16 @@ use super::score::Fines;
 use super::state::State;
 use super::ways::Ways;
 
+/// Something that is wrong, and where.
+#[derive(Clone, Copy, Debug)]
+enum Fault {
+    DeadEnd(usize),
+    Missing(usize),
+    Cut(usize),
+    Crossed(usize),
+    Shut(usize),
+}
+
 /// A state with all that its moves need.
 #[derive(Debug)]
 pub(super) struct Walk<'m, 'p> {
@@ -22,6 +32,8 @@ pub(super) struct Walk<'m, 'p> {
     pub(super) moves: u64,
     /// Vertices near what the move has removed.
     near: Vec<usize>,
+    /// Whether it is certain that the rooms tile the faces in no way.
+    pub(super) untileable: bool,
 }
 
 impl<'m, 'p> Walk<'m, 'p> {
@@ -36,6 +48,7 @@ impl<'m, 'p> Walk<'m, 'p> {
             added: vec![0; model.problem.edges()],
             moves: 0,
             near: Vec::new(),
+            untileable: false,
         }
     }
 
@@ -57,8 +70,7 @@ impl<'m, 'p> Walk<'m, 'p> {
             }
         }
         if self.state.removable.is_empty() || draw < 0.1 {
-            self.repair(4);
-            if self.near.is_empty() {
+            if !self.repair(4) {
                 self.extend();
             }
         } else if draw < 0.12 {
@@ -325,9 +337,13 @@ impl<'m, 'p> Walk<'m, 'p> {
         false
     }
 
-    /// Mends faults one by one, as often as told.
-    pub(super) fn repair(&mut self, rounds: usize) {
+    /// Mends faults one by one, as often as told. Says whether it mended any.
+    pub(super) fn repair(&mut self, rounds: usize) -> bool {
+        let mut any = false;
         for _ in 0..rounds {
+            let Some(fault) = self.fault() else {
+                return self.join_island() || any;
+            };
             let forced = self.dice.chance(0.2);
             let breach = if forced {
                 3.0 * self.model.unit
@@ -335,35 +351,54 @@ impl<'m, 'p> Walk<'m, 'p> {
                 f64::INFINITY
             };
             let manner = self.manner(breach);
-            let mended = if let Some(v) = self.dice.pick(self.state.dead_ends.items()) {
-                self.path_from(v, usize::MAX, &manner)
-            } else if let Some(row) = self.dice.pick(self.state.missing.items()) {
-                match self.vertex_of(row) {
+            let mended = match fault {
+                Fault::DeadEnd(v) => self.path_from(v, usize::MAX, &manner),
+                Fault::Missing(row) => match self.vertex_of(row) {
                     Some(v) => self.ear_through(v, &manner),
                     None => false,
-                }
-            } else if let Some(route) = self.dice.pick(self.state.cut.items()) {
-                self.open_route(route)
-            } else if let Some(room) = self.dice.pick(self.state.rooms.crossed.items()) {
-                self.free_room(room)
-            } else if let Some(room) = self.dice.pick(self.state.rooms.shut.items()) {
-                if self.dice.chance(0.4) {
+                },
+                Fault::Cut(route) => self.open_route(route),
+                Fault::Crossed(room) => self.free_room(room),
+                Fault::Shut(room) if self.dice.chance(0.4) => {
                     let count = 2 + self.dice.below(4);
                     self.retile(room, count)
-                } else {
-                    self.open_room(room, &manner)
                 }
-            } else {
-                return self.join_island();
+                Fault::Shut(room) => self.open_room(room, &manner),
             };
-            if mended {
-                if forced {
-                    self.shove();
-                    self.drop_islands();
-                }
-                self.near.push(0);
+            if mended && forced {
+                self.shove();
+                self.drop_islands();
             }
+            if !mended && self.dice.chance(0.3) {
+                // What cannot be reached now may be from elsewhere.
+                self.extend();
+            }
+            any |= mended;
         }
+        any
+    }
+
+    /// A fault to be mended: mostly of the first kind that there is, since what
+    /// is mended last may mend others by the way.
+    fn fault(&mut self) -> Option<Fault> {
+        let (state, dice) = (&self.state, &mut self.dice);
+        let faults = [
+            dice.pick(state.dead_ends.items()).map(Fault::DeadEnd),
+            dice.pick(state.missing.items()).map(Fault::Missing),
+            dice.pick(state.cut.items()).map(Fault::Cut),
+            dice.pick(state.rooms.crossed.items()).map(Fault::Crossed),
+            dice.pick(state.rooms.shut.items()).map(Fault::Shut),
+        ];
+        let kinds = faults.iter().flatten().count();
+        if kinds == 0 {
+            return None;
+        }
+        let which = if dice.chance(0.8) {
+            0
+        } else {
+            dice.below(kinds)
+        };
+        faults.into_iter().flatten().nth(which)
     }
 
     /// The best of some vertices that would cover a row.
@@ -425,18 +460,19 @@ impl<'m, 'p> Walk<'m, 'p> {
         true
     }
 
-    /// Joins an island to the rest.
-    fn join_island(&mut self) {
+    /// Joins an island to the rest, if there is one.
+    fn join_island(&mut self) -> bool {
         if self.ways.measure(self.model, &self.state).islands == 0 {
-            return;
+            return false;
         }
         let lost: Vec<usize> = (0..self.model.problem.vertices)
             .filter(|&v| self.state.degree[v] > 0 && self.ways.away[v].is_infinite())
             .collect();
-        if let Some(v) = self.dice.pick(&lost) {
-            let mut manner = self.manner(f64::INFINITY);
-            manner.reached = true;
-            self.path_from(v, usize::MAX, &manner);
+        let mut manner = self.manner(f64::INFINITY);
+        manner.reached = true;
+        match self.dice.pick(&lost) {
+            Some(v) => self.path_from(v, usize::MAX, &manner),
+            None => false,
         }
     }
 }

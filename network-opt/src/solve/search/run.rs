@@ -13,7 +13,7 @@ use crate::error::DesignError;
 use crate::solve::{Ended, Limits, Outcome, Progress, Watch};
 
 /// Between two reports.
-const PACE: Duration = Duration::from_millis(30);
+const PACE: Duration = Duration::from_millis(20);
 
 /// What threads tell each other.
 struct Shared {
@@ -124,6 +124,9 @@ impl Lead<'_> {
         let mut pending = anneal.best().is_some();
         let mut told = self.began;
         let mut moves = 0;
+        // Looked at after every move and not at every report: by the clock the
+        // bound would be another each time.
+        let mut proven = false;
         loop {
             let now = Instant::now();
             let late = self.limits.deadline.is_some_and(|d| now - self.began >= d);
@@ -132,7 +135,7 @@ impl Lead<'_> {
             let alone = shared.busy.load(Ordering::Acquire) == 0;
             let over = late || done && alone;
             let first = pending && self.outcome.network.is_none();
-            if over || first || now - told >= PACE {
+            if over || proven || first || now - told >= PACE {
                 told = now;
                 if std::mem::take(&mut pending) {
                     self.take(0, anneal.best());
@@ -156,7 +159,7 @@ impl Lead<'_> {
                     self.outcome.ended = Ended::Cancelled;
                     return;
                 }
-                if self.is_good() {
+                if proven || self.others_are_good() {
                     self.outcome.ended = Ended::Proven;
                     return;
                 }
@@ -170,11 +173,19 @@ impl Lead<'_> {
             }
             pending |= anneal.step();
             moves += 1;
+            if anneal.is_hopeless() {
+                self.outcome.ended = Ended::Infeasible;
+                self.outcome.bound = f64::INFINITY;
+                return;
+            }
             // The bound begins after the first networks, and then goes along.
             if moves >= 200 && moves % 8 == 0 {
                 let bound = bound.get_or_insert_with(|| Bound::new(model));
                 self.outcome.bound = self.outcome.bound.max(bound.improve(model));
             }
+            proven = anneal
+                .best()
+                .is_some_and(|best| self.is_good(best.objective));
         }
     }
 
@@ -220,10 +231,16 @@ impl Lead<'_> {
         improved
     }
 
-    fn is_good(&self) -> bool {
-        let objective = self.outcome.cost.objective;
+    /// Whether the bound comes as near to an objective as was asked for.
+    fn is_good(&self, objective: f64) -> bool {
         // Sums in another order differ in the last digits.
         let slack = (self.limits.gap.max(0.0) + 1e-9) * objective;
-        self.outcome.network.is_some() && self.outcome.bound >= objective - slack
+        self.outcome.bound >= objective - slack
+    }
+
+    /// Whether another thread has found what is good enough.
+    fn others_are_good(&self) -> bool {
+        let mut others = self.bests[1..].iter().flatten();
+        others.any(|(_, cost)| self.is_good(cost.objective))
     }
 }
