@@ -71,9 +71,9 @@ impl MipSolver for Highs {
         let thread = thread::Builder::new().name("highs".to_owned());
         // Its own stack for its recursive dives, as large as a main thread's.
         let spawned = thread.stack_size(8 << 20).spawn(move || {
-            let answer = run(&program, start.as_deref(), &limits, &theirs);
-            theirs.done();
-            answer
+            // Says so in any case, a panic included: who waits must not wait on.
+            let _done = Done(&theirs);
+            run(&program, start.as_deref(), &limits, &theirs)
         });
         let handle = spawned.map_err(|error| self.failed(format!("no thread: {error}")))?;
         let mut stopped: Option<(MipStatus, Instant)> = None;
@@ -128,6 +128,15 @@ impl MipSolver for Highs {
                 shared.stop();
             }
         }
+    }
+}
+
+/// Says that HiGHS is done when it is dropped.
+struct Done<'s>(&'s Shared);
+
+impl Drop for Done<'_> {
+    fn drop(&mut self) {
+        self.0.done();
     }
 }
 
