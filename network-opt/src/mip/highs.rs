@@ -183,6 +183,10 @@ fn configure(model: &mut Model, program: &Program, limits: &Limits) -> Option<()
     model
         .try_set_option("mip_rel_gap", limits.gap.max(0.0))
         .ok()?;
+    // HiGHS 1.16's presolve by enumeration loses solutions: without this the
+    // programs of some small networks come out infeasible (a regression test in
+    // `tests/design_props.rs`).
+    model.try_set_option("presolve_rule_off", 1 << 16).ok()?;
     if program.step() > 0.0 {
         // Less than a step, by more than what HiGHS holds a solution feasible for.
         let gap = program.step() * (1.0 - 1e-4);
@@ -222,7 +226,11 @@ fn answer(
         }
         other => return Err(Highs.failed(format!("it ended with {other:?}"))),
     };
-    let feasible = solved.primal_solution_status() == ::highs::HighsSolutionStatus::Feasible;
+    // The wrapper's own method panics where HiGHS has no status, as of an empty
+    // program.
+    let primal = solved.int_info_value(c"primal_solution_status");
+    let feasible = primal == Ok(::highs::HighsSolutionStatus::Feasible as i64)
+        || solved.status() == HighsModelStatus::ModelEmpty;
     let mut outcome = MipOutcome {
         status,
         solution: None,
@@ -282,6 +290,17 @@ mod tests {
             )
             .expect("solved");
         assert_eq!(none.status, MipStatus::Infeasible);
+    }
+
+    #[test]
+    fn an_empty_program_is_solved() {
+        let found = Highs
+            .solve(&Program::default(), None, &Limits::default(), &mut |_| {
+                MipReply::GoOn
+            })
+            .expect("solved");
+        assert_eq!(found.solution, Some(vec![]));
+        assert_eq!((found.status, found.objective), (MipStatus::Optimal, 0.0));
     }
 
     #[test]
