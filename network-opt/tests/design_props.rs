@@ -689,6 +689,19 @@ fn presolve_of_highs_loses_no_network() {
         rooms: false,
     };
     agrees(&recipe.problem(), &network_opt::mip::Highs).unwrap();
+    // Another, by another rule.
+    let recipe = Recipe {
+        size: (3, 1),
+        cut: vec![false],
+        edges: vec![17, 17, 17, 17, 17, 17, 17, 17, 17, 17, 0],
+        vertices: vec![24, 15, 15, 15, 94, 15, 15, 15],
+        dead_ends: true,
+        close: 2,
+        zig_zags: 1,
+        route: true,
+        ..recipe
+    };
+    agrees(&recipe.problem(), &network_opt::mip::Highs).unwrap();
 }
 
 /// All edges known beforehand: nothing is left to decide, a program without

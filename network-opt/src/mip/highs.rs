@@ -140,12 +140,36 @@ impl Drop for Done<'_> {
     }
 }
 
-/// Hands the program to HiGHS and waits for its answer.
+/// Solves the program; that there is no solution is believed only if HiGHS says
+/// so without its presolve as well.
 fn run(
     program: &Program,
     start: Option<&[f64]>,
     limits: &Limits,
     shared: &Shared,
+) -> Result<MipOutcome, DesignError> {
+    let began = Instant::now();
+    let found = attempt(program, start, limits, shared, true)?;
+    if found.status != MipStatus::Infeasible {
+        return Ok(found);
+    }
+    let spent = began.elapsed();
+    let rest = Limits {
+        deadline: limits
+            .deadline
+            .map(|deadline| deadline.saturating_sub(spent)),
+        ..limits.clone()
+    };
+    attempt(program, start, &rest, shared, false)
+}
+
+/// Hands the program to HiGHS and waits for its answer.
+fn attempt(
+    program: &Program,
+    start: Option<&[f64]>,
+    limits: &Limits,
+    shared: &Shared,
+    presolve: bool,
 ) -> Result<MipOutcome, DesignError> {
     let failed = |what: &str| Highs.failed(what);
     let mut rows = RowProblem::default();
@@ -162,7 +186,8 @@ fn run(
         .try_optimise(Sense::Minimise)
         .map_err(|_| failed("it refused the program"))?;
     model.make_quiet();
-    configure(&mut model, program, limits).ok_or_else(|| failed("it refused an option"))?;
+    configure(&mut model, program, limits, presolve)
+        .ok_or_else(|| failed("it refused an option"))?;
     if let Some(values) = start {
         // A start that it does not like is left out; so is one that meets not
         // all rows.
@@ -172,7 +197,7 @@ fn run(
     answer(program, &mut solved, shared)
 }
 
-fn configure(model: &mut Model, program: &Program, limits: &Limits) -> Option<()> {
+fn configure(model: &mut Model, program: &Program, limits: &Limits, presolve: bool) -> Option<()> {
     let threads = u32::try_from(limits.threads)
         .unwrap_or(u32::MAX)
         .clamp(1, 256);
@@ -183,10 +208,15 @@ fn configure(model: &mut Model, program: &Program, limits: &Limits) -> Option<()
     model
         .try_set_option("mip_rel_gap", limits.gap.max(0.0))
         .ok()?;
-    // HiGHS 1.16's presolve by enumeration loses solutions: without this the
-    // programs of some small networks come out infeasible (a regression test in
-    // `tests/design_props.rs`).
-    model.try_set_option("presolve_rule_off", 1 << 16).ok()?;
+    // Two rules of HiGHS 1.16's presolve, enumeration and Fourier-Motzkin
+    // elimination, lose solutions: with them the programs of some small networks
+    // come out infeasible (regression tests in `tests/design_props.rs`).
+    model
+        .try_set_option("presolve_rule_off", 1 << 16 | 1 << 22)
+        .ok()?;
+    if !presolve {
+        model.try_set_option("presolve", "off").ok()?;
+    }
     if program.step() > 0.0 {
         // Less than a step, by more than what HiGHS holds a solution feasible for.
         let gap = program.step() * (1.0 - 1e-4);
