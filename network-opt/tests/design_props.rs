@@ -665,3 +665,65 @@ fn the_papers_variables_are_counted() {
     let formulated = Formulated::new(&problem, Formulation::Paper, None).unwrap();
     assert_eq!(formulated.program().columns().len(), 2241);
 }
+
+/// HiGHS's presolve once called this one infeasible: a given edge apart from the
+/// others, with travel that costs nothing.
+#[cfg(feature = "highs")]
+#[test]
+fn presolve_of_highs_loses_no_network() {
+    let recipe = Recipe {
+        size: (2, 2),
+        cut: vec![true, false, false, false],
+        edges: vec![
+            0, 17, 11, 17, 17, 17, 17, 17, 11, 17, 17, 17, 17, 0, 0, 0, 0, 0, 0, 0,
+        ],
+        vertices: vec![94, 15, 15, 15, 0, 15, 0, 15, 15, 0, 0, 0],
+        range: 1,
+        unit: false,
+        dead_ends: false,
+        close: 1,
+        zig_zags: 2,
+        branches: 1,
+        weights: (0, 0),
+        route: false,
+        rooms: false,
+    };
+    agrees(&recipe.problem(), &network_opt::mip::Highs).unwrap();
+    // Another, by another rule.
+    let recipe = Recipe {
+        size: (3, 1),
+        cut: vec![false],
+        edges: vec![17, 17, 17, 17, 17, 17, 17, 17, 17, 17, 0],
+        vertices: vec![24, 15, 15, 15, 94, 15, 15, 15],
+        dead_ends: true,
+        close: 2,
+        zig_zags: 1,
+        route: true,
+        ..recipe
+    };
+    agrees(&recipe.problem(), &network_opt::mip::Highs).unwrap();
+}
+
+/// All edges known beforehand: nothing is left to decide, a program without
+/// columns.
+#[test]
+fn nothing_to_decide_is_decided() {
+    let recipe = Recipe {
+        size: (1, 1),
+        cut: vec![false],
+        edges: vec![11, 11, 11, 0],
+        vertices: vec![0],
+        range: 1,
+        unit: false,
+        dead_ends: false,
+        close: 0,
+        zig_zags: 0,
+        branches: 0,
+        weights: (0, 0),
+        route: false,
+        rooms: false,
+    };
+    agrees(&recipe.problem(), &Microlp).unwrap();
+    #[cfg(feature = "highs")]
+    agrees(&recipe.problem(), &network_opt::mip::Highs).unwrap();
+}

@@ -71,9 +71,9 @@ impl MipSolver for Highs {
         let thread = thread::Builder::new().name("highs".to_owned());
         // Its own stack for its recursive dives, as large as a main thread's.
         let spawned = thread.stack_size(8 << 20).spawn(move || {
-            let answer = run(&program, start.as_deref(), &limits, &theirs);
-            theirs.done();
-            answer
+            // Says so in any case, a panic included: who waits must not wait on.
+            let _done = Done(&theirs);
+            run(&program, start.as_deref(), &limits, &theirs)
         });
         let handle = spawned.map_err(|error| self.failed(format!("no thread: {error}")))?;
         let mut stopped: Option<(MipStatus, Instant)> = None;
@@ -131,12 +131,45 @@ impl MipSolver for Highs {
     }
 }
 
-/// Hands the program to HiGHS and waits for its answer.
+/// Says that HiGHS is done when it is dropped.
+struct Done<'s>(&'s Shared);
+
+impl Drop for Done<'_> {
+    fn drop(&mut self) {
+        self.0.done();
+    }
+}
+
+/// Solves the program; that there is no solution is believed only if HiGHS says
+/// so without its presolve as well.
 fn run(
     program: &Program,
     start: Option<&[f64]>,
     limits: &Limits,
     shared: &Shared,
+) -> Result<MipOutcome, DesignError> {
+    let began = Instant::now();
+    let found = attempt(program, start, limits, shared, true)?;
+    if found.status != MipStatus::Infeasible {
+        return Ok(found);
+    }
+    let spent = began.elapsed();
+    let rest = Limits {
+        deadline: limits
+            .deadline
+            .map(|deadline| deadline.saturating_sub(spent)),
+        ..limits.clone()
+    };
+    attempt(program, start, &rest, shared, false)
+}
+
+/// Hands the program to HiGHS and waits for its answer.
+fn attempt(
+    program: &Program,
+    start: Option<&[f64]>,
+    limits: &Limits,
+    shared: &Shared,
+    presolve: bool,
 ) -> Result<MipOutcome, DesignError> {
     let failed = |what: &str| Highs.failed(what);
     let mut rows = RowProblem::default();
@@ -153,7 +186,8 @@ fn run(
         .try_optimise(Sense::Minimise)
         .map_err(|_| failed("it refused the program"))?;
     model.make_quiet();
-    configure(&mut model, program, limits).ok_or_else(|| failed("it refused an option"))?;
+    configure(&mut model, program, limits, presolve)
+        .ok_or_else(|| failed("it refused an option"))?;
     if let Some(values) = start {
         // A start that it does not like is left out; so is one that meets not
         // all rows.
@@ -163,7 +197,7 @@ fn run(
     answer(program, &mut solved, shared)
 }
 
-fn configure(model: &mut Model, program: &Program, limits: &Limits) -> Option<()> {
+fn configure(model: &mut Model, program: &Program, limits: &Limits, presolve: bool) -> Option<()> {
     let threads = u32::try_from(limits.threads)
         .unwrap_or(u32::MAX)
         .clamp(1, 256);
@@ -174,6 +208,15 @@ fn configure(model: &mut Model, program: &Program, limits: &Limits) -> Option<()
     model
         .try_set_option("mip_rel_gap", limits.gap.max(0.0))
         .ok()?;
+    // Two rules of HiGHS 1.16's presolve, enumeration and Fourier-Motzkin
+    // elimination, lose solutions: with them the programs of some small networks
+    // come out infeasible (regression tests in `tests/design_props.rs`).
+    model
+        .try_set_option("presolve_rule_off", 1 << 16 | 1 << 22)
+        .ok()?;
+    if !presolve {
+        model.try_set_option("presolve", "off").ok()?;
+    }
     if program.step() > 0.0 {
         // Less than a step, by more than what HiGHS holds a solution feasible for.
         let gap = program.step() * (1.0 - 1e-4);
@@ -213,7 +256,11 @@ fn answer(
         }
         other => return Err(Highs.failed(format!("it ended with {other:?}"))),
     };
-    let feasible = solved.primal_solution_status() == ::highs::HighsSolutionStatus::Feasible;
+    // The wrapper's own method panics where HiGHS has no status, as of an empty
+    // program.
+    let primal = solved.int_info_value(c"primal_solution_status");
+    let feasible = primal == Ok(::highs::HighsSolutionStatus::Feasible as i64)
+        || solved.status() == HighsModelStatus::ModelEmpty;
     let mut outcome = MipOutcome {
         status,
         solution: None,
@@ -273,6 +320,17 @@ mod tests {
             )
             .expect("solved");
         assert_eq!(none.status, MipStatus::Infeasible);
+    }
+
+    #[test]
+    fn an_empty_program_is_solved() {
+        let found = Highs
+            .solve(&Program::default(), None, &Limits::default(), &mut |_| {
+                MipReply::GoOn
+            })
+            .expect("solved");
+        assert_eq!(found.solution, Some(vec![]));
+        assert_eq!((found.status, found.objective), (MipStatus::Optimal, 0.0));
     }
 
     #[test]
