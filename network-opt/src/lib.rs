@@ -5,6 +5,7 @@ pub use geo_types;
 pub mod design;
 mod error;
 pub mod formulate;
+pub mod levels;
 pub mod mesh;
 pub mod mip;
 pub mod quad;

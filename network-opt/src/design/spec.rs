@@ -51,6 +51,9 @@ pub enum Sinks {
     /// All vertices on the boundary.
     #[default]
     Boundary,
+    /// All vertices on streets that exist: what the streets of a lower level
+    /// lead to.
+    Streets,
     /// These vertices.
     At(Vec<usize>),
 }
@@ -131,6 +134,9 @@ pub struct Specification {
     ///
     /// Default value: free.
     pub t_junctions: Feature,
+    /// Edges that are streets already, besides those of the boundary: active,
+    /// and free.
+    pub given: Vec<usize>,
     /// (vi) Vertices that no street may touch: obstacles.
     pub obstacles: Vec<usize>,
     /// (vi) Routes that must be there: runs of vertices, each joined to the
@@ -154,6 +160,7 @@ impl Default for Specification {
             zig_zags: Feature::Weighted(5.0),
             too_close: Feature::Forbidden,
             t_junctions: Feature::Free,
+            given: Vec::new(),
             obstacles: Vec::new(),
             routes: Vec::new(),
             through: false,
@@ -179,10 +186,13 @@ impl Specification {
         let named = self.obstacles.iter().chain(self.routes.iter().flatten());
         let sinks = match &self.sinks {
             Sinks::At(list) => list.as_slice(),
-            Sinks::Boundary => &[],
+            Sinks::Boundary | Sinks::Streets => &[],
         };
         if let Some(v) = named.chain(sinks).find(|&&v| v >= vertices) {
             return bad(format!("vertex {v} is named, of {vertices}"));
+        }
+        if let Some(e) = self.given.iter().find(|&&e| e >= edges) {
+            return bad(format!("edge {e} is given, of {edges}"));
         }
         let rim: Vec<bool> = mesh.rim().collect();
         let states = self.states(mesh, &rim)?;
@@ -192,6 +202,11 @@ impl Specification {
             Sinks::Boundary => {
                 let outer = mesh.edges().iter().zip(&rim).filter(|(_, &rim)| rim);
                 outer.for_each(|(ends, _)| ends.iter().for_each(|&v| is_sink[v] = true));
+            }
+            Sinks::Streets => {
+                let streets = mesh.edges().iter().zip(&states);
+                let streets = streets.filter(|(_, &state)| state == EdgeState::Given);
+                streets.for_each(|(ends, _)| ends.iter().for_each(|&v| is_sink[v] = true));
             }
         }
         let mean = (0..edges).map(|e| mesh.length(e)).sum::<f64>() / edges.max(1) as f64;
@@ -223,6 +238,9 @@ impl Specification {
             .iter()
             .map(|&rim| if rim { on_rim } else { EdgeState::Open })
             .collect();
+        self.given
+            .iter()
+            .for_each(|&e| states[e] = EdgeState::Given);
         let close = |states: &mut Vec<EdgeState>, e: usize| {
             if states[e] == EdgeState::Open {
                 states[e] = EdgeState::Closed;
@@ -241,7 +259,7 @@ impl Specification {
             for &(e, _) in mesh.around(v) {
                 if states[e] == EdgeState::Given {
                     return bad(format!(
-                        "vertex {v} is an obstacle, but the street along the boundary touches it"
+                        "vertex {v} is an obstacle, but a street that exists touches it"
                     ));
                 }
                 close(&mut states, e);

@@ -11,4 +11,4 @@ mod chains;
 mod smooth;
 
 pub use chains::{snakes, Snake};
-pub use smooth::{smooth, SmoothNetwork, SnakeOptions};
+pub use smooth::{smooth, smooth_snakes, SmoothNetwork, SnakeOptions};

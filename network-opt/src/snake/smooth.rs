@@ -131,10 +131,34 @@ pub fn smooth(
     }
     let own: Vec<bool> = (0..edges).map(|e| active[e] && !given[e]).collect();
     let found = snakes(mesh, &own, options.through_deg.to_radians());
-    let mut draft = Draft::new(mesh, &found, options.pieces);
+    smooth_snakes(mesh, found, given, options)
+}
+
+/// [`smooth`] for snakes that were found otherwise: of streets of several
+/// classes, say, none of which is to run on into another.
+///
+/// # Errors
+///
+/// As [`smooth`]; [`DesignError::BadProblem`] too for a snake with a vertex
+/// that the mesh has not.
+pub fn smooth_snakes(
+    mesh: &Tessellation,
+    snakes: Vec<Snake>,
+    given: &[bool],
+    options: &SnakeOptions,
+) -> Result<SmoothNetwork, DesignError> {
+    options.check()?;
+    let vertices = mesh.points().len();
+    let strange = |s: &Snake| s.vertices.len() < 2 || s.vertices.iter().any(|&v| v >= vertices);
+    if given.len() != mesh.edges().len() || snakes.iter().any(strange) {
+        return Err(DesignError::BadProblem {
+            what: "the snakes, or the list of given edges, are not of this mesh".to_owned(),
+        });
+    }
+    let mut draft = Draft::new(mesh, &snakes, options.pieces);
     draft.hold(mesh, given, options.slide);
-    draft.relax(&found, options)?;
-    let streets = found
+    draft.relax(&snakes, options)?;
+    let streets = snakes
         .into_iter()
         .zip(&draft.lines)
         .map(|(snake, line)| {
@@ -144,7 +168,7 @@ pub fn smooth(
         .collect();
     Ok(SmoothNetwork {
         streets,
-        vertices: draft.points[..mesh.points().len()].to_vec(),
+        vertices: draft.points[..vertices].to_vec(),
     })
 }
 
