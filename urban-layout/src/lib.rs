@@ -24,6 +24,7 @@
 pub mod adapt;
 mod assemble;
 pub mod check;
+pub mod design;
 mod error;
 pub mod field;
 mod inset;

@@ -10,6 +10,7 @@ pub mod frame;
 pub(crate) mod geojson;
 pub mod html;
 pub mod layout_geojson;
+pub mod network_geojson;
 #[cfg(feature = "png")]
 pub mod png;
 pub mod streamlines_geojson;

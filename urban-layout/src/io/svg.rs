@@ -13,6 +13,7 @@ mod field_map;
 mod field_sheet;
 mod font;
 mod map;
+mod network;
 mod palette;
 mod picture;
 mod sheet;
@@ -27,6 +28,7 @@ use crate::site::Site;
 use canvas::{escaped, Canvas, Transform};
 pub use field::field_svg;
 pub use field_sheet::{field_sheet_svg, FieldPanel};
+pub use network::network_svg;
 pub use streamlines::{streamlines_svg, Paint, StreamlineSvgOptions};
 
 /// How a plan is drawn.

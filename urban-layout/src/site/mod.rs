@@ -20,6 +20,7 @@ use std::path::Path;
 use geo_types::{Coord, LineString, MultiPolygon, Polygon};
 
 pub use access::AccessZones;
+pub(crate) use boundary::Boundary;
 pub(crate) use fault::SiteError;
 pub use kind::{ElementKind, RoadClass, Units};
 pub use warning::{Warning, WarningKind};
@@ -197,7 +198,7 @@ impl Site {
     /// every time: for a few questions.
     #[must_use]
     pub fn contains(&self, c: Coord<f64>) -> bool {
-        boundary::Boundary::new(&self.parts).contains(c)
+        Boundary::new(&self.parts).contains(c)
     }
 
     /// Where the boundary has access to a street outside: within half its width

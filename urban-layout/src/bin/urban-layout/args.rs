@@ -28,6 +28,8 @@ pub(crate) enum Verb {
     Field(FieldJob),
     /// Place evenly spaced streamlines and judge them: writes streamlines.svg, streamlines.geojson and criteria.json.
     Streamlines(StreamlineJob),
+    /// Design a street network from a specification: writes network.svg, network.geojson and network.json.
+    Network(NetworkJob),
 }
 
 #[derive(Debug, Args)]
@@ -130,6 +132,35 @@ pub(crate) struct StreamlineJob {
     pub(crate) png: bool,
     #[command(flatten)]
     pub(crate) design: Design,
+    #[command(flatten)]
+    pub(crate) common: Common,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct NetworkJob {
+    /// The site, a GeoJSON file.
+    pub(crate) site: PathBuf,
+    /// Folder for the results; made if it is not there.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// What the network is for, a TOML file; short collectors within two edges of everything if not given.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) spec: Option<PathBuf>,
+    /// Seconds to search for.
+    #[arg(long, default_value_t = 10.0, value_name = "S")]
+    pub(crate) deadline: f64,
+    /// Stop where the cost is proven to be within this part of the least.
+    #[arg(long, default_value_t = 0.0)]
+    pub(crate) gap: f64,
+    /// Seed of all random choices.
+    #[arg(long, default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// Threads of the search.
+    #[arg(long, default_value_t = 1)]
+    pub(crate) threads: usize,
+    /// Also draw network.png.
+    #[arg(long)]
+    pub(crate) png: bool,
     #[command(flatten)]
     pub(crate) common: Common,
 }

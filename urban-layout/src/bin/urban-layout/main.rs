@@ -5,6 +5,7 @@ mod bar;
 mod check;
 mod field;
 mod generate;
+mod network;
 mod streamlines;
 
 use std::process::ExitCode;
@@ -29,6 +30,7 @@ fn main() -> ExitCode {
         Verb::Check(job) => check::run(job),
         Verb::Field(job) => field::run(job),
         Verb::Streamlines(job) => streamlines::run(job),
+        Verb::Network(job) => network::run(job),
     };
     match done {
         Ok(code) => ExitCode::from(code),

@@ -1,0 +1,108 @@
+//! A designed street network as SVG.
+
+use geo_types::Coord;
+
+use super::canvas::{Anchor, Lettering, PathData};
+use super::picture::Picture;
+use crate::design::NetworkStudy;
+use crate::site::Site;
+
+/// Longer side of the picture, sheet units (200 mm), and the legend below.
+const LONG_SIDE: f64 = 20_000.0;
+const FOOT: f64 = 1500.0;
+/// From near a sink to far from it.
+const SHADES: [&str; 5] = ["#1864ab", "#0b7285", "#2b8a3e", "#e67700", "#c92a2a"];
+const INK: &str = "#343a40";
+
+/// Draws the streets of a study, as wide as they are, on the faint mesh that
+/// they were chosen from; along each a line whose colour says how far it is to
+/// a sink of its level, from blue to red.
+#[must_use]
+pub fn network_svg(study: &NetworkStudy, site: &Site) -> String {
+    let mut picture = Picture::new(site, LONG_SIDE, FOOT);
+    picture.land("#f8f9fa");
+    let to = picture.to;
+    let mut mesh = PathData::default();
+    for part in &study.parts {
+        let Some(level) = part.levels.last() else {
+            continue;
+        };
+        for &[a, b] in level.mesh.edges() {
+            let ends = [a, b].map(|v| to.place(level.mesh.points()[v]));
+            mesh.line(ends, false);
+        }
+    }
+    picture.canvas.path(
+        &mesh.0,
+        "fill=\"none\" stroke=\"#e9ecef\" stroke-width=\"12\"",
+    );
+    let streets = || study.parts.iter().flat_map(|part| &part.streets);
+    let round = "stroke-linecap=\"round\" stroke-linejoin=\"round\"";
+    // Edges of all streets first, then their surfaces: crossings are open.
+    for (colour, share) in [("#adb5bd", 1.0), ("#fff", 0.8)] {
+        for (k, level) in study.spec.level.iter().enumerate() {
+            let mut path = PathData::default();
+            for street in streets().filter(|s| s.level == k) {
+                path.line(street.line.0.iter().map(|&c| to.place(c)), false);
+            }
+            let pen = (share * level.width * to.scale).max(20.0);
+            picture.canvas.path(
+                &path.0,
+                &format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"{pen:.0}\" {round}"),
+            );
+        }
+    }
+    let far = streets()
+        .flat_map(|s| s.away.iter().copied())
+        .fold(1.0, f64::max);
+    for (k, colour) in SHADES.iter().enumerate() {
+        let mut path = PathData::default();
+        let class = |metres: f64| ((5.0 * metres / far) as usize).min(4);
+        for street in streets() {
+            let mut run: Vec<Coord<f64>> = Vec::new();
+            for (pair, &metres) in street.line.0.windows(2).zip(&street.away) {
+                if class(metres) == k {
+                    if run.is_empty() {
+                        run.push(to.place(pair[0]));
+                    }
+                    run.push(to.place(pair[1]));
+                } else {
+                    path.line(run.drain(..), false);
+                }
+            }
+            path.line(run, false);
+        }
+        picture.canvas.path(
+            &path.0,
+            &format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"45\" {round}"),
+        );
+    }
+    picture.outline();
+    legend(&mut picture, far);
+    picture.finish()
+}
+
+fn legend(picture: &mut Picture, far: f64) {
+    let top = picture.height + 0.35 * FOOT;
+    let letters = Lettering {
+        cap: 220.0,
+        weight: 0.13,
+        colour: INK,
+        anchor: Anchor::Left,
+    };
+    let words = format!("way to a sink: 0 to {far:.0} m");
+    picture
+        .canvas
+        .raw("<style>.t{fill:none;stroke-linecap:round;stroke-linejoin:round}</style>\n");
+    picture.canvas.text(&words, 500.0, top, letters);
+    for (k, colour) in SHADES.iter().enumerate() {
+        let left = 500.0 + 900.0 * k as f64;
+        picture.canvas.rect(
+            left,
+            top + 250.0,
+            860.0,
+            160.0,
+            &format!("fill=\"{colour}\""),
+        );
+    }
+}

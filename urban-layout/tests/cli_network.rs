@@ -1,0 +1,177 @@
+//! `urban-layout network` as a user meets it.
+#![cfg(feature = "cli")]
+
+mod bench;
+
+use bench::{json, names, Bench, BOW_TIE};
+use serde_json::Value;
+
+const SPEC: &str = r#"
+edge-length = 25.0
+[[level]]
+class = "collector"
+[[level]]
+class = "local"
+width = 7.5
+[level.network]
+sinks = "streets"
+coverage = { hops = 2 }
+travel = 0.1
+"#;
+
+/// A lake in the middle of a square.
+const LAKE: &str = r#"{"type": "FeatureCollection", "coordinate_units": "metres", "features": [
+{"type": "Feature", "properties": {"kind": "site"}, "geometry":
+{"type": "Polygon", "coordinates": [[[0, 0], [400, 0], [400, 400], [0, 400], [0, 0]]]}},
+{"type": "Feature", "properties": {"kind": "water"}, "geometry":
+{"type": "Polygon", "coordinates": [[[150, 150], [250, 150], [250, 250], [150, 250], [150, 150]]]}}]}"#;
+
+fn points(feature: &Value) -> Vec<(f64, f64)> {
+    let all = feature["geometry"]["coordinates"]
+        .as_array()
+        .expect("points");
+    let number = |v: &Value| v.as_f64().expect("a number");
+    all.iter().map(|p| (number(&p[0]), number(&p[1]))).collect()
+}
+
+/// What each file promises, and that levels meet.
+#[test]
+fn a_network_is_designed_and_drawn() {
+    let bench = Bench::new();
+    std::fs::write(bench.path("spec.toml"), SPEC).expect("written");
+    let words = [
+        "network",
+        "site.geojson",
+        "--spec",
+        "spec.toml",
+        "--deadline",
+        "0.6",
+        "--out",
+        "net",
+        "--json",
+    ];
+    let figures = json(&bench.expect(0, &words));
+    assert_eq!(
+        names(&bench.path("net")),
+        ["network.geojson", "network.json", "network.svg"]
+    );
+    let read = |name: &str| std::fs::read_to_string(bench.path("net").join(name)).expect(name);
+    assert_eq!(json(&read("network.json")), figures);
+    assert_eq!(figures["valid"], true);
+    let number = |key: &str| figures[key].as_f64().expect(key);
+    assert!(number("bound") <= number("objective") && (0.0..=1.0).contains(&number("gap")));
+    assert!(number("first_feasible_seconds") <= number("seconds"));
+    // The deadline is for the search of both levels together.
+    assert!(number("seconds") < 3.0);
+
+    let streets = json(&read("network.geojson"));
+    assert_eq!(streets["coordinate_units"], "metres");
+    let features = streets["features"].as_array().expect("features");
+    let of = |level: u64| {
+        features
+            .iter()
+            .filter(move |f| f["properties"]["level"] == level)
+    };
+    assert!(of(0).count() > 0 && of(1).count() > 0);
+    assert!(of(0).all(|f| f["properties"]["class"] == "collector"));
+    assert!(of(1).all(|f| f["properties"]["width_m"] == 7.5));
+    // All within the site, and each open end on the boundary or on a street.
+    let all: Vec<(f64, f64)> = features.iter().flat_map(points).collect();
+    assert!(all
+        .iter()
+        .all(|&(x, y)| (-1e-6..240.0 + 1e-6).contains(&x) && (-1e-6..150.0 + 1e-6).contains(&y)));
+    for feature in features {
+        let line = points(feature);
+        let (first, last) = (line[0], line[line.len() - 1]);
+        if first == last {
+            continue;
+        }
+        for (x, y) in [first, last] {
+            let rim = x.min(240.0 - x).min(y).min(150.0 - y).abs() < 1e-6;
+            let shared = all
+                .iter()
+                .filter(|&&(a, b)| (a - x).hypot(b - y) < 1e-6)
+                .count()
+                > 1;
+            assert!(rim || shared, "a street ends at ({x}, {y})");
+        }
+    }
+    let svg = read("network.svg");
+    assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"));
+}
+
+/// Without a specification there are collectors; streets keep out of a lake.
+#[test]
+fn streets_keep_out_of_elements() {
+    let bench = Bench::new();
+    std::fs::write(bench.path("lake.geojson"), LAKE).expect("written");
+    bench.expect(
+        0,
+        &[
+            "network",
+            "lake.geojson",
+            "--deadline",
+            "0.3",
+            "--out",
+            "net",
+        ],
+    );
+    let text = std::fs::read_to_string(bench.path("net/network.geojson")).expect("written");
+    let streets = json(&text);
+    let features = streets["features"].as_array().expect("features");
+    assert!(!features.is_empty());
+    for (x, y) in features.iter().flat_map(points) {
+        // Smoothing may round a corner of the lake by less than an edge.
+        let deep = (x - 150.0).min(250.0 - x).min(y - 150.0).min(250.0 - y);
+        assert!(deep < 20.0, "({x}, {y}) lies {deep} m within the lake");
+    }
+}
+
+#[test]
+fn what_is_wrong_is_said() {
+    let bench = Bench::new();
+    let stderr = |words: &[&str], status: i32| {
+        let output = bench.run(words);
+        assert_eq!(output.status.code(), Some(status), "{words:?}");
+        String::from_utf8(output.stderr).expect("UTF-8")
+    };
+    for (text, word) in [
+        ("level = []", "no level"),
+        ("[[level]]\nwidht = 3", "widht"),
+        ("[[level]]\nwidth = -3", "metres"),
+        ("[[level]]\n[level.network]\nobstacles = [9999]", "9999"),
+    ] {
+        std::fs::write(bench.path("bad.toml"), text).expect("written");
+        let said = stderr(
+            &[
+                "network",
+                "site.geojson",
+                "--spec",
+                "bad.toml",
+                "--out",
+                "net",
+            ],
+            1,
+        );
+        assert!(said.contains(word), "{said}");
+    }
+    let said = stderr(
+        &["network", "site.geojson", "--deadline", "0", "--out", "net"],
+        2,
+    );
+    assert!(said.contains("deadline"), "{said}");
+    stderr(
+        &[
+            "network",
+            "site.geojson",
+            "--spec",
+            "none.toml",
+            "--out",
+            "net",
+        ],
+        1,
+    );
+    std::fs::write(bench.path("tie.geojson"), BOW_TIE).expect("written");
+    stderr(&["network", "tie.geojson", "--out", "net"], 1);
+    assert!(!bench.path("net").exists());
+}
