@@ -68,8 +68,8 @@ pub struct Street {
 /// use network_opt::solve::{Limits, Search};
 /// use std::time::Duration;
 ///
-/// let site = polygon![(x: 0., y: 0.), (x: 600., y: 0.), (x: 600., y: 500.), (x: 0., y: 500.)];
-/// let mesh = quads(&site, &QuadOptions { edge_length: 100.0, ..QuadOptions::default() })?;
+/// let site = polygon![(x: 0., y: 0.), (x: 600., y: 0.), (x: 600., y: 600.), (x: 0., y: 600.)];
+/// let mesh = quads(&site, &QuadOptions { edge_length: 75.0, ..QuadOptions::default() })?;
 /// let collectors = Specification::default();
 /// let local = Specification { sinks: Sinks::Streets, ..Specification::default() };
 /// let limits = Limits { deadline: Some(Duration::from_millis(300)), ..Limits::default() };
