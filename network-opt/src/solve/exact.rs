@@ -83,14 +83,7 @@ impl<M: MipSolver> Exact<M> {
         watch: &mut Watch<'_>,
         pool: Option<&Pool>,
     ) -> Result<Outcome, DesignError> {
-        problem.check()?;
-        let mut record = Record::new(problem, watch);
-        if let Some(pool) = pool {
-            record.share(pool);
-        }
-        if let Some(network) = start {
-            record.offer(network.clone());
-        }
+        let mut record = Record::begin(problem, start, watch, pool)?;
         let formulation = match self.formulation {
             Formulation::Recommended => Formulation::for_problem(problem),
             other => other,

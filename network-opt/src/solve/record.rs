@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::{Ended, Limits, Outcome, Progress, Watch};
 use crate::design::{cost, verify, Cost, Network, Problem};
+use crate::error::DesignError;
 
 /// What a solver has found, and whom it tells.
 pub(super) struct Record<'p, 'w> {
@@ -34,9 +35,20 @@ impl Pool {
 }
 
 impl<'p, 'w> Record<'p, 'w> {
-    /// Nothing found so far, and the clock starts.
-    pub(super) fn new(problem: &'p Problem, watch: &'w mut Watch<'_>) -> Self {
-        Self {
+    /// The clock starts, from `start` if that is valid, and networks are shared
+    /// with other solvers through the pool.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Problem::check`].
+    pub(super) fn begin(
+        problem: &'p Problem,
+        start: Option<&Network>,
+        watch: &'w mut Watch<'_>,
+        pool: Option<&'w Pool>,
+    ) -> Result<Self, DesignError> {
+        problem.check()?;
+        let mut record = Self {
             problem,
             began: Instant::now(),
             best: None,
@@ -44,14 +56,13 @@ impl<'p, 'w> Record<'p, 'w> {
             cancelled: false,
             first: None,
             watch,
-            pool: None,
+            pool,
+        };
+        record.receive();
+        if let Some(network) = start {
+            record.offer(network.clone());
         }
-    }
-
-    /// Networks are shared with other solvers from now on.
-    pub(super) fn share(&mut self, pool: &'w Pool) {
-        self.pool = Some(pool);
-        self.receive();
+        Ok(record)
     }
 
     /// Takes the network of another solver if it is better; says whether it is.

@@ -70,14 +70,7 @@ impl<M: MipSolver> Windows<M> {
         watch: &mut Watch<'_>,
         pool: Option<&Pool>,
     ) -> Result<Outcome, DesignError> {
-        problem.check()?;
-        let mut record = Record::new(problem, watch);
-        if let Some(pool) = pool {
-            record.share(pool);
-        }
-        if let Some(network) = start {
-            record.offer(network.clone());
-        }
+        let mut record = Record::begin(problem, start, watch, pool)?;
         if record.best.is_none() {
             let exact = Exact {
                 formulation: self.formulation,
