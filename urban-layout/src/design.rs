@@ -8,7 +8,7 @@
 use std::time::{Duration, Instant};
 
 use geo_types::Polygon;
-use network_opt::design::{verify, Specification, Tessellation};
+use network_opt::design::{verify, Specification};
 use network_opt::levels::{design_levels, streets, Level, Street};
 use network_opt::quad::{quads, QuadOptions};
 use network_opt::snake::SnakeOptions;
@@ -17,14 +17,20 @@ use serde::Deserialize;
 use serde_json::{json, Value};
 
 use crate::error::{Error, Result};
-use crate::site::{Boundary, Site};
+use crate::site::Site;
+use regions::{area, regions};
+
+mod places;
+mod regions;
+
+pub use places::{Places, SinkPlaces};
 
 /// What `--spec` holds.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(default, rename_all = "kebab-case", deny_unknown_fields)]
 pub struct NetworkSpec {
     /// Length of the edges of the first level's mesh, metres; 0 for a twelfth
-    /// of the square root of the area. Default 0.
+    /// of the square root of the largest region's area. Default 0.
     pub edge_length: f64,
     /// The levels, the widest streets first. Default: collectors alone.
     pub level: Vec<LevelSpec>,
@@ -40,6 +46,8 @@ pub struct LevelSpec {
     pub width: f64,
     /// What they are for.
     pub network: Specification,
+    /// Where the things are that it is told of.
+    pub places: Places,
 }
 
 impl Default for NetworkSpec {
@@ -57,6 +65,7 @@ impl Default for LevelSpec {
             class: "collector".to_owned(),
             width: 12.0,
             network: Specification::default(),
+            places: Places::default(),
         }
     }
 }
@@ -113,7 +122,7 @@ impl NetworkSpec {
     }
 }
 
-/// The network of one part of a site.
+/// The network of one region of a site.
 #[derive(Debug)]
 pub struct PartNetwork {
     /// Its levels, as far as they were found.
@@ -122,10 +131,10 @@ pub struct PartNetwork {
     pub streets: Vec<Street>,
 }
 
-/// The networks of the parts of a site.
+/// The networks of the regions of a site.
 #[derive(Debug)]
 pub struct NetworkStudy {
-    /// One for each of [`Site::parts`].
+    /// One for each region between given roads and the boundary.
     pub parts: Vec<PartNetwork>,
     /// What was asked for.
     pub spec: NetworkSpec,
@@ -134,9 +143,10 @@ pub struct NetworkStudy {
 }
 
 impl NetworkStudy {
-    /// Designs the network of each part of `site`; the time that `limits` give
-    /// is divided among parts and levels. Vertices within key elements are
-    /// obstacles; given roads are not part of it.
+    /// Designs the network of each region of `site`: the land between given
+    /// roads and the boundary, which count as its rim. The time that `limits`
+    /// give is divided among regions and levels. Vertices within key elements
+    /// are obstacles.
     ///
     /// `told` hears of progress, and stops the work by false.
     ///
@@ -152,22 +162,39 @@ impl NetworkStudy {
     ) -> Result<Self> {
         let began = Instant::now();
         let fault = |e: network_opt::DesignError| Error::input(e.to_string());
-        let share = u32::try_from(site.parts.len().max(1)).unwrap_or(u32::MAX);
+        let regions = regions(site)?;
+        let edge_length = if spec.edge_length == 0.0 {
+            let areas = regions.iter().map(area);
+            areas.fold(0.0, f64::max).sqrt() / 12.0
+        } else {
+            spec.edge_length
+        };
+        let share = u32::try_from(regions.len().max(1)).unwrap_or(u32::MAX);
         let limits = Limits {
             deadline: limits.deadline.map(|deadline| deadline / share),
             ..limits.clone()
         };
+        let elements: Vec<Polygon<f64>> = site.elements.iter().map(|e| e.polygon.clone()).collect();
         let mut parts = Vec::new();
-        for part in &site.parts {
+        for (number, region) in regions.iter().enumerate() {
             let options = QuadOptions {
-                edge_length: spec.edge_length,
+                edge_length,
                 ..QuadOptions::default()
             };
-            let mesh = quads(part, &options).map_err(fault)?;
-            let mut wanted: Vec<Specification> =
-                spec.level.iter().map(|l| l.network.clone()).collect();
-            if let Some(first) = wanted.first_mut() {
-                first.obstacles.extend(obstacles(&mesh, site));
+            let mesh = quads(region, &options).map_err(fault)?;
+            let mut wanted = Vec::new();
+            for (k, level) in spec.level.iter().enumerate() {
+                let mut network = level.network.clone();
+                if k == 0 {
+                    network.obstacles.extend(places::within(&mesh, &elements));
+                }
+                if !level.places.is_empty() {
+                    let mesh = (0..k).fold(mesh.clone(), |mesh, _| mesh.refined());
+                    level
+                        .places
+                        .settle(&mut network, &mesh, &regions, number, site)?;
+                }
+                wanted.push(network);
             }
             let levels =
                 design_levels(mesh, &wanted, &Search::default(), &limits, told).map_err(fault)?;
@@ -259,17 +286,4 @@ impl NetworkStudy {
 fn valid(level: &Level) -> bool {
     let network = level.outcome.network.as_ref();
     network.is_some_and(|network| verify(&level.problem, network).is_empty())
-}
-
-/// Vertices within key elements, but those on the boundary, where streets exist.
-fn obstacles(mesh: &Tessellation, site: &Site) -> Vec<usize> {
-    let mut on_rim = vec![false; mesh.points().len()];
-    for (ends, rim) in mesh.edges().iter().zip(mesh.rim()) {
-        ends.iter().for_each(|&v| on_rim[v] |= rim);
-    }
-    let elements: Vec<Polygon<f64>> = site.elements.iter().map(|e| e.polygon.clone()).collect();
-    let within = Boundary::new(&elements);
-    (0..mesh.points().len())
-        .filter(|&v| !on_rim[v] && within.contains(mesh.points()[v]))
-        .collect()
 }

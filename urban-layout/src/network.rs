@@ -315,7 +315,7 @@ fn long_runs(points: &[(Coord<f64>, bool)], covered: &[bool]) -> Vec<bool> {
 }
 
 /// Where outside streets reach the site's boundary, and which way they point.
-fn entries(site: &Site) -> Vec<Entry> {
+pub(crate) fn entries(site: &Site) -> Vec<Entry> {
     let mut segments = Vec::new();
     for part in &site.parts {
         for ring in std::iter::once(part.exterior()).chain(part.interiors()) {

@@ -14,9 +14,6 @@ pub(crate) fn run(job: &NetworkJob) -> Result<u8> {
     for warning in &site.warnings {
         eprintln!("warning: {warning}");
     }
-    if !site.roads.is_empty() {
-        eprintln!("warning: given roads are not part of the network");
-    }
     let spec = match &job.spec {
         Some(path) => {
             let text = std::fs::read_to_string(path)

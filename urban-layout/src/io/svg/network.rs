@@ -3,7 +3,7 @@
 use geo_types::Coord;
 
 use super::canvas::{Anchor, Lettering, PathData};
-use super::picture::Picture;
+use super::picture::{dot, Picture};
 use crate::design::NetworkStudy;
 use crate::site::Site;
 
@@ -36,8 +36,25 @@ pub fn network_svg(study: &NetworkStudy, site: &Site) -> String {
         &mesh.0,
         "fill=\"none\" stroke=\"#e9ecef\" stroke-width=\"12\"",
     );
-    let streets = || study.parts.iter().flat_map(|part| &part.streets);
     let round = "stroke-linecap=\"round\" stroke-linejoin=\"round\"";
+    let mut elements = PathData::default();
+    for element in &site.elements {
+        let rings = std::iter::once(element.polygon.exterior()).chain(element.polygon.interiors());
+        rings.for_each(|ring| elements.line(ring.0.iter().map(|&c| to.place(c)), true));
+    }
+    picture
+        .canvas
+        .path(&elements.0, "fill=\"#dee2e6\" fill-rule=\"evenodd\"");
+    for road in &site.roads {
+        let mut path = PathData::default();
+        path.line(road.line.0.iter().map(|&c| to.place(c)), false);
+        let pen = (road.width * to.scale).max(20.0);
+        picture.canvas.path(
+            &path.0,
+            &format!("fill=\"none\" stroke=\"#ced4da\" stroke-width=\"{pen:.0}\" {round}"),
+        );
+    }
+    let streets = || study.parts.iter().flat_map(|part| &part.streets);
     // Edges of all streets first, then their surfaces: crossings are open.
     for (colour, share) in [("#adb5bd", 1.0), ("#fff", 0.8)] {
         for (k, level) in study.spec.level.iter().enumerate() {
@@ -78,8 +95,26 @@ pub fn network_svg(study: &NetworkStudy, site: &Site) -> String {
         );
     }
     picture.outline();
+    for sink in few_sinks(study) {
+        dot(&mut picture.canvas, to.place(sink), 110.0, "#c92a2a");
+    }
     legend(&mut picture, far);
     picture.finish()
+}
+
+/// The sinks of first levels, but where the whole boundary is one.
+fn few_sinks(study: &NetworkStudy) -> Vec<Coord<f64>> {
+    let mut found = Vec::new();
+    for level in study.parts.iter().filter_map(|part| part.levels.first()) {
+        let rim = level.mesh.edges().iter().zip(level.mesh.rim());
+        let boundary: usize = rim.filter(|(_, rim)| *rim).count();
+        let sinks = level.problem.sinks.iter().enumerate();
+        let sinks: Vec<usize> = sinks.filter(|(_, &sink)| sink).map(|(v, _)| v).collect();
+        if 2 * sinks.len() < boundary {
+            found.extend(sinks.into_iter().map(|v| level.mesh.points()[v]));
+        }
+    }
+    found
 }
 
 fn legend(picture: &mut Picture, far: f64) {

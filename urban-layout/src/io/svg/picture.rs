@@ -118,11 +118,16 @@ pub(super) fn singularities(
             "#1864ab"
         };
         let radius = radius + growth * f64::from(singularity.quarter_index.abs() - 1);
-        canvas.raw(&format!(
-            "<circle cx=\"{:.0}\" cy=\"{:.0}\" r=\"{radius:.0}\" fill=\"{colour}\" stroke=\"#fff\" stroke-width=\"{:.0}\"/>\n",
-            at.x, at.y, 0.27 * radius
-        ));
+        dot(canvas, at, radius, colour);
     }
+}
+
+/// A dot with a white edge.
+pub(super) fn dot(canvas: &mut Canvas, at: Coord<f64>, radius: f64, colour: &str) {
+    canvas.raw(&format!(
+        "<circle cx=\"{:.0}\" cy=\"{:.0}\" r=\"{radius:.0}\" fill=\"{colour}\" stroke=\"#fff\" stroke-width=\"{:.0}\"/>\n",
+        at.x, at.y, 0.27 * radius
+    ));
 }
 
 /// Lowest and highest coordinates of all parts.
