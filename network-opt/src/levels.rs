@@ -151,6 +151,8 @@ fn finer(mesh: &Tessellation, obstacles: &[usize]) -> Vec<usize> {
 
 /// The streets of all levels, smoothed together on the finest mesh, so that
 /// they meet where they met; no street runs on into one of another level.
+/// Sinks that lie alone are pinned, for a street is to end there; where a whole
+/// street is sink its ends may slide.
 ///
 /// # Errors
 ///
@@ -189,7 +191,11 @@ pub fn streets(levels: &[Level], options: &SnakeOptions) -> Result<Vec<Street>, 
     }
     given.resize(last.mesh.edges().len(), false);
     let (of, snakes): (Vec<usize>, Vec<Snake>) = all.into_iter().unzip();
-    let smooth = smooth_snakes(&last.mesh, snakes, &given, options)?;
+    let mut options = options.clone();
+    options
+        .pinned
+        .extend(found.iter().flat_map(|l| lone_sinks(l)));
+    let smooth = smooth_snakes(&last.mesh, snakes, &given, &options)?;
     let streets = smooth.streets.into_iter().zip(of);
     Ok(streets
         .map(|((snake, line), level)| Street {
@@ -202,6 +208,14 @@ pub fn streets(levels: &[Level], options: &SnakeOptions) -> Result<Vec<Street>, 
             line,
         })
         .collect())
+}
+
+/// Sinks of a level without a sink beside them; vertices keep their numbers on
+/// finer meshes.
+fn lone_sinks(level: &Level) -> impl Iterator<Item = usize> + '_ {
+    let sinks = &level.problem.sinks;
+    let lone = move |&v: &usize| !level.mesh.around(v).iter().any(|&(_, w)| sinks[w]);
+    (0..sinks.len()).filter(|&v| sinks[v]).filter(lone)
 }
 
 /// Lists by edge on the refined mesh; its edges within faces are not in them.
@@ -286,6 +300,31 @@ mod tests {
             assert!(street.away.iter().all(|metres| metres.is_finite()));
         }
         assert!(streets.iter().any(|s| s.level == 0) && streets.iter().any(|s| s.level == 1));
+    }
+
+    /// A street that leads to a single place ends there, on the boundary and
+    /// inside it.
+    #[test]
+    fn streets_end_at_lone_sinks() {
+        for sink in [3, 24] {
+            let spec = Specification {
+                sinks: Sinks::At(vec![sink]),
+                rim: crate::design::Rim::Closed,
+                ..Specification::default()
+            };
+            let limits = Limits {
+                deadline: None,
+                ..Limits::default()
+            };
+            let search = Search { moves: Some(2000) };
+            let mesh = Tessellation::grid(6, 6);
+            let at = mesh.points()[sink];
+            let levels =
+                design_levels(mesh, &[spec], &search, &limits, &mut |_| true).expect("fits");
+            let streets = streets(&levels, &SnakeOptions::default()).expect("smooth");
+            let meets = |street: &Street| street.line.0.contains(&at);
+            assert!(streets.iter().any(meets), "a street at vertex {sink}");
+        }
     }
 
     /// A square of obstacles stays empty on the finer mesh too.

@@ -174,6 +174,13 @@ fn bad_options_are_named() {
             },
             "pieces",
         ),
+        (
+            SnakeOptions {
+                pinned: vec![9999],
+                ..good.clone()
+            },
+            "pinned",
+        ),
     ] {
         let error = smooth(&mesh, &edges, &edges, &bad).unwrap_err().to_string();
         assert!(error.contains(word), "{error}");

@@ -41,6 +41,11 @@ pub struct SnakeOptions {
     ///
     /// Default value: 50.
     pub through_deg: f64,
+    /// Vertices that stay where they are, wherever they lie: places that a
+    /// street leads to.
+    ///
+    /// Default value: none.
+    pub pinned: Vec<usize>,
 }
 
 impl Default for SnakeOptions {
@@ -53,6 +58,7 @@ impl Default for SnakeOptions {
             steps: 40,
             slide: 0.4,
             through_deg: 50.0,
+            pinned: Vec::new(),
         }
     }
 }
@@ -110,7 +116,8 @@ pub struct SmoothNetwork {
 /// # Errors
 ///
 /// [`DesignError::BadOption`] for a number out of its range;
-/// [`DesignError::BadProblem`] if a list has not one entry an edge;
+/// [`DesignError::BadProblem`] if a list has not one entry an edge, or a vertex
+/// is pinned that the mesh has not;
 /// [`DesignError::OutOfMemory`] if memory does not suffice.
 ///
 /// # Complexity
@@ -155,8 +162,16 @@ pub fn smooth_snakes(
             what: "the snakes, or the list of given edges, are not of this mesh".to_owned(),
         });
     }
+    if let Some(v) = options.pinned.iter().find(|&&v| v >= vertices) {
+        return Err(DesignError::BadProblem {
+            what: format!("vertex {v} is pinned, of {vertices}"),
+        });
+    }
     let mut draft = Draft::new(mesh, &snakes, options.pieces);
     draft.hold(mesh, given, options.slide);
+    for &v in &options.pinned {
+        draft.holds[v] = Hold::Fixed;
+    }
     draft.relax(&snakes, options)?;
     let streets = snakes
         .into_iter()
