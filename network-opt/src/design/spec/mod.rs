@@ -1,10 +1,12 @@
 //! What a network is for, in the designer's words, and what that means for
 //! each edge of a mesh.
 
-use crate::error::DesignError;
+mod patterns;
+mod states;
 
-use super::problem::{EdgeState, Pattern, PatternKind, Problem};
+use super::problem::{EdgeState, Problem};
 use super::tessellation::Tessellation;
+use crate::error::DesignError;
 
 /// How a local feature is treated.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -227,70 +229,6 @@ impl Specification {
         Ok(problem)
     }
 
-    fn states(&self, mesh: &Tessellation, rim: &[bool]) -> Result<Vec<EdgeState>, DesignError> {
-        let bad = |what: String| Err(DesignError::BadProblem { what });
-        let on_rim = match self.rim {
-            Rim::Given => EdgeState::Given,
-            Rim::Open => EdgeState::Open,
-            Rim::Closed => EdgeState::Closed,
-        };
-        let mut states: Vec<EdgeState> = rim
-            .iter()
-            .map(|&rim| if rim { on_rim } else { EdgeState::Open })
-            .collect();
-        self.given
-            .iter()
-            .for_each(|&e| states[e] = EdgeState::Given);
-        let close = |states: &mut Vec<EdgeState>, e: usize| {
-            if states[e] == EdgeState::Open {
-                states[e] = EdgeState::Closed;
-            }
-        };
-        if self.too_close == Feature::Forbidden {
-            for [a, b] in mesh.opposite_edges() {
-                for (given, other) in [(a, b), (b, a)] {
-                    if states[given] == EdgeState::Given {
-                        close(&mut states, other);
-                    }
-                }
-            }
-        }
-        for &v in &self.obstacles {
-            for &(e, _) in mesh.around(v) {
-                if states[e] == EdgeState::Given {
-                    return bad(format!(
-                        "vertex {v} is an obstacle, but a street that exists touches it"
-                    ));
-                }
-                close(&mut states, e);
-            }
-        }
-        for (r, route) in self.routes.iter().enumerate() {
-            for pair in route.windows(2) {
-                let Some(e) = mesh.edge_between(pair[0], pair[1]) else {
-                    return bad(format!(
-                        "route {r} jumps from vertex {} to {}, which no edge joins",
-                        pair[0], pair[1]
-                    ));
-                };
-                if pair.iter().any(|v| self.obstacles.contains(v)) {
-                    return bad(format!("route {r} runs into the obstacle at {}", pair[1]));
-                }
-                if states[e] != EdgeState::Given {
-                    states[e] = EdgeState::Required;
-                }
-            }
-            if self.through {
-                for &v in route.get(1..route.len().saturating_sub(1)).unwrap_or(&[]) {
-                    mesh.around(v)
-                        .iter()
-                        .for_each(|&(e, _)| close(&mut states, e));
-                }
-            }
-        }
-        Ok(states)
-    }
-
     /// The balls of the coverage constraint (equation 6).
     fn balls(&self, mesh: &Tessellation) -> Result<Vec<Vec<usize>>, DesignError> {
         let of = |v: usize| match self.coverage {
@@ -308,67 +246,12 @@ impl Specification {
         let all = (0..mesh.points().len()).filter(|v| !self.obstacles.contains(v));
         Ok(all.map(of).collect())
     }
-
-    fn patterns(&self, mesh: &Tessellation, states: &[EdgeState]) -> Vec<Pattern> {
-        let mut patterns = Vec::new();
-        let mut add = |kind, active: Vec<usize>, inactive: Vec<usize>, feature: Feature| {
-            // What a closed edge is part of cannot occur.
-            let closed = |&e: &usize| states[e] == EdgeState::Closed;
-            let given = |&e: &usize| states[e] == EdgeState::Given;
-            if active.iter().any(closed) || inactive.iter().any(given) || active.iter().all(given) {
-                return;
-            }
-            if let Some(cost) = feature.cost() {
-                patterns.push(Pattern {
-                    kind,
-                    active,
-                    inactive,
-                    cost,
-                });
-            }
-        };
-        for pair in mesh.opposite_edges() {
-            add(PatternKind::TooClose, pair.to_vec(), vec![], self.too_close);
-        }
-        for path in mesh.zig_zags() {
-            add(PatternKind::ZigZag, path.to_vec(), vec![], self.zig_zags);
-        }
-        for v in 0..mesh.points().len() {
-            let around: Vec<usize> = mesh.around(v).iter().map(|&(e, _)| e).collect();
-            let others = |e: usize| {
-                around
-                    .iter()
-                    .copied()
-                    .filter(move |&o| o != e)
-                    .collect::<Vec<_>>()
-            };
-            if around.len() == 4 {
-                for &e in &around {
-                    add(PatternKind::TJunction, others(e), vec![e], self.t_junctions);
-                }
-            }
-            // Three of them at once: all that more than two comes to.
-            for (i, &a) in around.iter().enumerate() {
-                for (j, &b) in around.iter().enumerate().skip(i + 1) {
-                    for &c in &around[j + 1..] {
-                        add(PatternKind::Branch, vec![a, b, c], vec![], self.branches);
-                    }
-                }
-            }
-            if let Feature::Weighted(_) = self.dead_ends {
-                for &e in &around {
-                    add(PatternKind::DeadEnd, vec![e], others(e), self.dead_ends);
-                }
-            }
-        }
-        patterns
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::{verify, Network, Violation};
+    use crate::design::{verify, Network, PatternKind, Violation};
 
     /// The paper's figure 2: 312 edges of which 48 are the boundary's, 48 more
     /// are parallel to one, and 192 pairs are too close.
