@@ -2,8 +2,14 @@
 //! each edge of a mesh.
 
 mod patterns;
+mod places;
 mod states;
+mod traffic;
 
+pub use places::{Among, Place};
+pub use traffic::{Across, Inside, Pairs, Parts, Traffic};
+
+use super::placed::PlacedSinks;
 use super::problem::{EdgeState, Problem};
 use super::tessellation::Tessellation;
 use crate::error::DesignError;
@@ -58,6 +64,15 @@ pub enum Sinks {
     Streets,
     /// These vertices.
     At(Vec<usize>),
+    /// Somewhere: the program chooses where they serve best, each on a street,
+    /// as in the paper's figure 8e.
+    Placed {
+        /// How many.
+        count: usize,
+        /// Where; by default on the boundary.
+        #[cfg_attr(feature = "serde", serde(default))]
+        among: Among,
+    },
 }
 
 /// What becomes of the edges on the boundary.
@@ -108,6 +123,10 @@ pub struct Specification {
     ///
     /// Default value: 1e-4: short networks, and of those the quick ones.
     pub travel: f64,
+    /// (iii) What traffic the network is for.
+    ///
+    /// Default value: to sinks alone.
+    pub traffic: Traffic,
     /// (iv) Where traffic goes.
     ///
     /// Default value: the boundary.
@@ -155,6 +174,7 @@ impl Default for Specification {
             coverage: Coverage::Hops(2),
             length: 1.0,
             travel: 1e-4,
+            traffic: Traffic::default(),
             sinks: Sinks::Boundary,
             rim: Rim::Given,
             dead_ends: Feature::Forbidden,
@@ -181,14 +201,15 @@ impl Specification {
     ///
     /// [`DesignError::BadProblem`] for a vertex that is not in the mesh, a
     /// route that does not follow edges or runs into an obstacle, a number out
-    /// of its range, or no sink.
+    /// of its range, no sink, or places that have to be joined and cannot be;
+    /// [`DesignError::BadOption`] for parts that are not.
     pub fn on(&self, mesh: &Tessellation) -> Result<Problem, DesignError> {
         let bad = |what: String| Err(DesignError::BadProblem { what });
         let (vertices, edges) = (mesh.points().len(), mesh.edges().len());
         let named = self.obstacles.iter().chain(self.routes.iter().flatten());
         let sinks = match &self.sinks {
             Sinks::At(list) => list.as_slice(),
-            Sinks::Boundary | Sinks::Streets => &[],
+            Sinks::Boundary | Sinks::Streets | Sinks::Placed { .. } => &[],
         };
         if let Some(v) = named.chain(sinks).find(|&&v| v >= vertices) {
             return bad(format!("vertex {v} is named, of {vertices}"));
@@ -210,9 +231,27 @@ impl Specification {
                 let streets = streets.filter(|(_, &state)| state == EdgeState::Given);
                 streets.for_each(|(ends, _)| ends.iter().for_each(|&v| is_sink[v] = true));
             }
+            Sinks::Placed { .. } => {}
+        }
+        let placed = match &self.sinks {
+            Sinks::Placed { count, among } => {
+                let open = |&(e, _): &(usize, usize)| states[e] != EdgeState::Closed;
+                let may = |v: usize| mesh.around(v).iter().any(open);
+                Some(PlacedSinks {
+                    candidates: among.candidates(mesh, &may)?,
+                    count: *count,
+                })
+            }
+            _ => None,
+        };
+        let to_sinks = self.traffic.to_sinks;
+        if !(to_sinks >= 0.0 && to_sinks.is_finite()) {
+            return bad(format!(
+                "the weight of traffic to sinks is {to_sinks}; give 0 or more"
+            ));
         }
         let mean = (0..edges).map(|e| mesh.length(e)).sum::<f64>() / edges.max(1) as f64;
-        let problem = Problem {
+        let mut problem = Problem {
             vertices,
             ends: mesh.edges().to_vec(),
             lengths: (0..edges).map(|e| mesh.length(e) / mean).collect(),
@@ -221,10 +260,13 @@ impl Specification {
             dead_ends: self.dead_ends != Feature::Forbidden,
             states,
             sinks: is_sink,
+            placed,
             length_weight: self.length,
-            travel_weight: self.travel,
+            travel_weight: self.travel * to_sinks,
             ..Problem::default()
         };
+        problem.check()?;
+        problem.routes = self.spans(mesh, &problem)?;
         problem.check()?;
         Ok(problem)
     }
@@ -299,7 +341,7 @@ mod tests {
                 .iter()
                 .map(|&s| s == EdgeState::Required)
                 .collect(),
-            rooms: vec![],
+            ..Network::default()
         };
         assert!(verify(&problem, &network)
             .iter()

@@ -2,13 +2,14 @@
 //! number of logged steps, and whoever asked for it takes them back or not.
 
 mod repair;
+mod sinks;
 
 use super::ears::{Finder, Manner};
-use super::lists::Dice;
 use super::model::{Fate, Model};
 use super::score::Fines;
 use super::state::State;
 use super::ways::Ways;
+use crate::dice::Dice;
 
 /// A state with all that its moves need.
 #[derive(Debug)]
@@ -58,6 +59,18 @@ impl<'m, 'p> Walk<'m, 'p> {
                 let count = 2 + self.dice.below(4);
                 self.retile(room, count);
                 self.repair(2);
+                return;
+            }
+        }
+        if self.model.placing.is_some() && self.dice.chance(0.12) {
+            self.move_sink();
+            self.repair(2);
+            return;
+        }
+        if !self.state.lapsed.is_empty() && self.dice.chance(0.08) {
+            if let Some(route) = self.dice.pick(self.state.lapsed.items()) {
+                self.open_route(route);
+                self.repair(3);
                 return;
             }
         }
@@ -131,7 +144,7 @@ impl<'m, 'p> Walk<'m, 'p> {
 
     /// Removes edges from a dead end on to where there is none.
     fn trim(&mut self, mut v: usize) {
-        while self.state.degree[v] == 1 && !self.model.problem.sinks[v] {
+        while self.state.degree[v] == 1 && !self.state.sinks[v] {
             let active = |&&(e, _): &&(usize, usize)| self.state.active[e];
             let Some(&(e, w)) = self.model.around.of(v).iter().find(active) else {
                 return;
@@ -291,7 +304,7 @@ impl<'m, 'p> Walk<'m, 'p> {
     fn ear_through(&mut self, v: usize, manner: &Manner) -> bool {
         const NOWHERE: usize = usize::MAX;
         let mark = self.state.mark();
-        let inside = self.state.is_stop(self.model, v);
+        let inside = self.state.is_stop(v);
         if !self.path_from(v, NOWHERE, manner) {
             return false;
         }
@@ -316,7 +329,7 @@ impl<'m, 'p> Walk<'m, 'p> {
             ends.reverse();
         }
         let [a, b] = ends;
-        let [near, far] = ends.map(|v| self.state.is_stop(self.model, v));
+        let [near, far] = ends.map(|v| self.state.is_stop(v));
         self.add(e);
         let dead_ends = self.model.problem.dead_ends;
         // The first path must not end at the other end, or it were an island.
@@ -334,7 +347,8 @@ impl<'m, 'p> Walk<'m, 'p> {
 mod tests {
     use super::*;
     use crate::design::{
-        cost, verify, EdgeState, Network, Pattern, PatternKind, Placement, Problem, Rooms,
+        cost_of, verify, EdgeState, Pattern, PatternKind, PlacedSinks, Placement, Problem, Rooms,
+        Route,
     };
     use crate::solve::search::score::Score;
 
@@ -414,7 +428,13 @@ mod tests {
             sinks,
             coverage: vec![vec![12], vec![3, 4, 9], vec![20, 21]],
             required_vertices: vec![22],
-            routes: vec![vec![vec![at(2, 3), at(3, 8)], vec![at(2, 7), at(7, 8)]]],
+            routes: vec![
+                vec![vec![at(2, 3), at(3, 8)], vec![at(2, 7), at(7, 8)]].into(),
+                Route {
+                    cost: Some(1.5),
+                    ..vec![vec![at(6, 11), at(11, 16)], vec![at(13, 14)]].into()
+                },
+            ],
             patterns,
             rooms: rooms.then(|| Rooms {
                 placements,
@@ -431,25 +451,28 @@ mod tests {
     /// taken back leaves no trace.
     #[test]
     fn counters_agree_with_the_checker_after_every_move() {
-        for (rooms, dead_ends) in [(false, false), (false, true), (true, false), (true, true)] {
+        for k in 0..8 {
+            let [rooms, dead_ends, placed] = [1, 2, 4].map(|bit| k & bit != 0);
             let mut problem = mixed(rooms);
             problem.dead_ends = dead_ends;
+            if placed {
+                problem.sinks[24] = false;
+                problem.placed = Some(PlacedSinks {
+                    candidates: vec![4, 9, 12, 20, 23, 24],
+                    count: 2,
+                });
+            }
             problem.check().expect("fits together");
             let model = Model::new(&problem).expect("no contradiction");
             let mut walk = Walk::new(&model, 7);
             let mut valid = 0;
             for k in 0..3000 {
-                let before = (walk.state.active.clone(), walk.state.rooms.owner.clone());
+                let before = (walk.state.network(), walk.state.rooms.owner.clone());
                 let score = Score::of(&model, &walk.state, &mut walk.ways);
                 let mark = walk.state.mark();
                 walk.step();
                 let after = Score::of(&model, &walk.state, &mut walk.ways);
-                let mut placed = walk.state.rooms.placed.items().to_vec();
-                placed.sort_unstable();
-                let network = Network {
-                    active: walk.state.active.clone(),
-                    rooms: placed,
-                };
+                let network = walk.state.network();
                 let found = verify(&problem, &network);
                 assert_eq!(
                     after.is_valid(),
@@ -459,7 +482,7 @@ mod tests {
                 );
                 if after.is_valid() {
                     valid += 1;
-                    let cost = cost(&problem, &network.active).objective;
+                    let cost = cost_of(&problem, &network).objective;
                     // A few thousand additions of numbers below 100.
                     assert!((cost - after.objective).abs() < 1e-9);
                 }
@@ -469,7 +492,7 @@ mod tests {
                     assert_eq!(again.faults, score.faults);
                     assert_eq!(
                         before,
-                        (walk.state.active.clone(), walk.state.rooms.owner.clone())
+                        (walk.state.network(), walk.state.rooms.owner.clone())
                     );
                 } else {
                     walk.state.settle();

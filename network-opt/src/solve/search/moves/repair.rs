@@ -11,6 +11,7 @@ enum Fault {
     Cut(usize),
     Crossed(usize),
     Shut(usize),
+    Idle(usize),
 }
 
 impl Walk<'_, '_> {
@@ -36,6 +37,7 @@ impl Walk<'_, '_> {
                 },
                 Fault::Cut(route) => self.open_route(route),
                 Fault::Crossed(room) => self.free_room(room),
+                Fault::Idle(sink) => self.serve_sink(sink),
                 Fault::Shut(room) if self.dice.chance(0.4) => {
                     let count = 2 + self.dice.below(4);
                     self.retile(room, count)
@@ -65,6 +67,7 @@ impl Walk<'_, '_> {
             dice.pick(state.cut.items()).map(Fault::Cut),
             dice.pick(state.rooms.crossed.items()).map(Fault::Crossed),
             dice.pick(state.rooms.shut.items()).map(Fault::Shut),
+            dice.pick(state.idle.items()).map(Fault::Idle),
         ];
         let kinds = faults.iter().flatten().count();
         if kinds == 0 {
@@ -89,20 +92,6 @@ impl Walk<'_, '_> {
             }
         }
         best.map(|(v, _)| v)
-    }
-
-    /// Makes one of the paths of a route active.
-    fn open_route(&mut self, route: usize) -> bool {
-        let Some(path) = self.dice.pick(self.model.routes.of(route)) else {
-            return false;
-        };
-        for &e in self.model.paths.of(path) {
-            if !self.state.active[e] {
-                self.add(e);
-            }
-        }
-        self.shove();
-        true
     }
 
     /// Gives a room a corridor on its border.
