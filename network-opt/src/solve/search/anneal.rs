@@ -26,6 +26,10 @@ pub(super) struct Best {
 }
 
 const FIRST_CYCLE: u64 = 2000;
+/// Where sinks are decides what a network looks like, and they seldom move far
+/// once there are streets. So where they are to be placed cycles begin anew as a
+/// rule, elsewhere, and are long enough to tell good places.
+const PLACING_CYCLE: u64 = 8000;
 
 impl<'m, 'p> Anneal<'m, 'p> {
     pub(super) fn new(model: &'m Model<'p>, start: Option<&Network>, seed: u64) -> Self {
@@ -34,12 +38,16 @@ impl<'m, 'p> Anneal<'m, 'p> {
             walk.state.become_network(model, start);
         }
         let at = Score::of(model, &walk.state, &mut walk.ways);
+        let cycle = match model.placing {
+            Some(_) => PLACING_CYCLE,
+            None => FIRST_CYCLE,
+        };
         let mut anneal = Self {
             walk,
             at,
             best: None,
             done: 0,
-            cycle: FIRST_CYCLE,
+            cycle,
             hot: model.unit,
         };
         anneal.note();
@@ -78,6 +86,15 @@ impl<'m, 'p> Anneal<'m, 'p> {
         self.done += 1;
         if self.done == self.cycle {
             self.done = 0;
+            if self.walk.model.placing.is_some() {
+                self.cycle += self.cycle / 4;
+                if self.best.is_none() || self.walk.dice.chance(0.6) {
+                    self.afresh();
+                } else {
+                    self.restart();
+                }
+                return improved;
+            }
             self.cycle *= 2;
             if self.best.is_none() {
                 self.afresh();
@@ -94,6 +111,8 @@ impl<'m, 'p> Anneal<'m, 'p> {
         let walk = &mut self.walk;
         walk.fines = Fines::new(walk.model.unit);
         walk.state = State::new(walk.model);
+        walk.scatter_sinks();
+        walk.state.settle();
         self.at = Score::of(walk.model, &walk.state, &mut walk.ways);
     }
 

@@ -1,6 +1,7 @@
 //! Moves of sinks whose places are open, and of routes that need not be there.
 
 use super::Walk;
+use crate::solve::search::score::Score;
 
 impl Walk<'_, '_> {
     /// Moves a sink that was placed to a candidate nearby, on a street, or
@@ -9,6 +10,10 @@ impl Walk<'_, '_> {
         let Some(from) = self.dice.pick(self.state.placed.items()) else {
             return;
         };
+        if self.dice.chance(0.3) {
+            self.fit_sink(from);
+            return;
+        }
         let Some(to) = self.next_place(from) else {
             return;
         };
@@ -28,6 +33,45 @@ impl Walk<'_, '_> {
         self.drop_islands();
     }
 
+    /// Moves all sinks that were placed to random candidates.
+    pub(in super::super) fn scatter_sinks(&mut self) {
+        let Some(placing) = &self.model.placing else {
+            return;
+        };
+        for from in self.state.placed.items().to_vec() {
+            match self.dice.pick(&placing.candidates) {
+                Some(to) if !self.state.sinks[to] => self.state.move_sink(self.model, from, to),
+                _ => {}
+            }
+        }
+    }
+
+    /// Moves a sink along the streets to where ways are shortest, of the places
+    /// nearby.
+    fn fit_sink(&mut self, sink: usize) {
+        let Some(placing) = &self.model.placing else {
+            return;
+        };
+        let (mut at, mut best) = (sink, None);
+        for &to in std::iter::once(&sink).chain(placing.near.of(sink)) {
+            if to != sink && (self.state.sinks[to] || self.state.degree[to] == 0) {
+                continue;
+            }
+            if to != at {
+                self.state.move_sink(self.model, at, to);
+                at = to;
+            }
+            let score = Score::of(self.model, &self.state, &mut self.ways);
+            let total = self.fines.total(&score);
+            if to != sink && best.is_none_or(|(least, _)| total < least) {
+                best = Some((total, to));
+            }
+        }
+        if let Some((_, to)) = best.filter(|&(_, to)| to != at) {
+            self.state.move_sink(self.model, at, to);
+        }
+    }
+
     /// A candidate that is no sink.
     fn next_place(&mut self, from: usize) -> Option<usize> {
         let placing = self.model.placing.as_ref()?;
@@ -43,7 +87,7 @@ impl Walk<'_, '_> {
             let to = to?;
             let may = self.model.may_sink[to] && !self.state.sinks[to];
             // Mostly to where there is a street already.
-            if may && (draw < 0.6 || draw > 0.85 || self.state.degree[to] > 0) {
+            if may && (!(0.6..0.85).contains(&draw) || self.state.degree[to] > 0) {
                 return Some(to);
             }
         }
