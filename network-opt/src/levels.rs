@@ -231,7 +231,8 @@ fn nearer(level: &Level) -> Vec<f64> {
     let empty = Network::default();
     let network = level.outcome.network.as_ref().unwrap_or(&empty);
     let unit = level.metres();
-    let away = distances(&level.problem, &network.active);
+    let settled = level.problem.settled(&network.sinks);
+    let away = distances(&settled, &network.active);
     let ends = level.problem.ends.iter();
     ends.map(|ends| {
         unit * ends

@@ -3,6 +3,7 @@
 pub use geo_types;
 
 pub mod design;
+mod dice;
 mod error;
 pub mod formulate;
 pub mod levels;

@@ -4,7 +4,8 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use network_opt::design::{
-    cost, verify, EdgeState, Network, Pattern, PatternKind, Placement, Problem, Rooms, Tessellation,
+    cost, verify, EdgeState, Network, Pattern, PatternKind, Placement, Problem, Rooms, Route,
+    Tessellation,
 };
 use network_opt::formulate::{longest_ways, prepare, Fate, Formulated, Formulation};
 use network_opt::geo_types::{coord, Coord};
@@ -182,7 +183,10 @@ impl Recipe {
                 let steps = (0..wide).filter_map(|k| mesh.edge_between(base + k, base + k + 1));
                 steps.collect()
             };
-            vec![vec![row(0), row((wide + 1) * self.size.1)]]
+            vec![Route {
+                cost: (self.zig_zags % 2 == 1).then_some(3.0),
+                ..vec![row(0), row((wide + 1) * self.size.1)].into()
+            }]
         } else {
             Vec::new()
         };
@@ -200,6 +204,7 @@ impl Recipe {
             rooms,
             length_weight: [1.0, 5.0, 1.0][usize::from(self.weights.0)],
             travel_weight: [0.0, 1.0, 0.001][usize::from(self.weights.1)],
+            ..Problem::default()
         }
     }
 }
@@ -282,6 +287,7 @@ fn all_valid(problem: &Problem) -> Vec<Network> {
             let network = Network {
                 active: active.clone(),
                 rooms: rooms.clone(),
+                ..Network::default()
             };
             if verify(problem, &network).is_empty() {
                 found.push(network);
@@ -307,7 +313,7 @@ const PROGRAMS: [Formulation; 4] = [
 fn priced(problem: &Problem, formulation: Formulation, network: &Network) -> f64 {
     let cost = cost(problem, &network.active);
     match formulation {
-        Formulation::Flow => problem.length_weight * cost.length + cost.patterns,
+        Formulation::Flow => problem.length_weight * cost.length + cost.patterns + cost.routes,
         _ => cost.objective,
     }
 }
@@ -559,7 +565,8 @@ proptest! {
             rename(&mut p.active, &edges);
             rename(&mut p.inactive, &edges);
         }
-        other.routes.iter_mut().flatten().for_each(|path| rename(path, &edges));
+        let paths = other.routes.iter_mut().flat_map(|r| &mut r.paths);
+        paths.for_each(|path| rename(path, &edges));
         for room in other.rooms.iter_mut().flat_map(|r| &mut r.placements) {
             rename(&mut room.inner, &edges);
             rename(&mut room.border, &edges);

@@ -5,7 +5,8 @@
 use std::time::{Duration, Instant};
 
 use network_opt::design::{
-    cost, verify, EdgeState, Network, Pattern, PatternKind, Placement, Problem, Rooms, Tessellation,
+    cost, verify, EdgeState, Network, Pattern, PatternKind, Placement, Problem, Rooms, Route,
+    Tessellation,
 };
 use network_opt::geo_types::coord;
 use network_opt::solve::{Ended, Limits, NetworkSolver, Outcome, Search};
@@ -52,7 +53,15 @@ fn streets(columns: usize, rows: usize) -> impl Strategy<Value = Problem> {
             inactive,
             cost,
         });
-    let routes = prop::collection::vec(prop::collection::vec(some(m, 3), 1..3), 0..2);
+    let route = (
+        prop::collection::vec(some(m, 3), 1..3),
+        prop_oneof![2 => Just(None), 1 => (0.0..5.0).prop_map(Some)],
+    )
+        .prop_map(|(paths, cost)| Route {
+            cost,
+            ..paths.into()
+        });
+    let routes = prop::collection::vec(route, 0..3);
     (
         prop::collection::vec(state, m),
         prop_oneof![Just(vec![1.0; m]), prop::collection::vec(0.5..2.0, m)],
@@ -93,6 +102,7 @@ fn streets(columns: usize, rows: usize) -> impl Strategy<Value = Problem> {
                     rooms: None,
                     length_weight: weights.0,
                     travel_weight: weights.1,
+                    ..Problem::default()
                 }
             },
         )
@@ -199,6 +209,7 @@ fn all_valid(problem: &Problem) -> Vec<(Network, f64)> {
             let network = Network {
                 active: active.clone(),
                 rooms: rooms.clone(),
+                ..Network::default()
             };
             if verify(problem, &network).is_empty() {
                 let cost = cost(problem, &active).objective;
@@ -330,7 +341,8 @@ proptest! {
         for pattern in &mut turned.patterns {
             pattern.active.iter_mut().chain(&mut pattern.inactive).for_each(|e| *e = m - *e);
         }
-        turned.routes.iter_mut().flatten().flatten().for_each(|e| *e = m - *e);
+        let paths = turned.routes.iter_mut().flat_map(|r| &mut r.paths);
+        paths.flatten().for_each(|e| *e = m - *e);
         let [a, b] = [&problem, &turned].map(|p| solve(p, 20_000, seed, None));
         prop_assert_eq!(a.network.is_some(), b.network.is_some());
         // As above.

@@ -149,10 +149,10 @@ impl Instance {
             required_vertices: self.must_active_vertices,
             dead_ends: self.deadends == Allowance::Allow,
             patterns,
-            routes: Vec::new(),
             rooms,
             length_weight: length.unwrap_or(0.0),
             travel_weight: travel.unwrap_or(0.0),
+            ..Problem::default()
         };
         problem.check()?;
         Ok(problem)

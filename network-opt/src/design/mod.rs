@@ -11,12 +11,23 @@
 //! - [`Network`]: an answer; [`verify`] says what is wrong with it and [`cost`]
 //!   what it costs, both without knowledge of any solver.
 
+mod partition;
+mod paths;
+mod placed;
 mod problem;
+mod route;
 mod spec;
 mod tessellation;
 mod verify;
 
+pub use partition::{check_partition, partition, partition_around};
+pub use paths::{paths_between, PathOptions};
+pub use placed::{cost_of, PlacedSinks};
 pub use problem::{EdgeState, Network, Pattern, PatternKind, Placement, Problem, Rooms};
-pub use spec::{Coverage, Feature, Rim, Sinks, Specification};
+pub use route::{Route, RouteKind};
+pub use spec::{
+    Across, Among, Coverage, Feature, Inside, Pairs, Parts, Place, Rim, Sinks, Specification,
+    Traffic,
+};
 pub use tessellation::Tessellation;
 pub use verify::{cost, distances, verify, Cost, Violation};

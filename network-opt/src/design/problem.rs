@@ -1,5 +1,7 @@
 //! What is to be solved: a specification spelled out on one mesh.
 
+use super::placed::PlacedSinks;
+use super::route::Route;
 use crate::error::DesignError;
 
 /// What is known of an edge beforehand.
@@ -115,9 +117,12 @@ pub struct Problem {
     pub dead_ends: bool,
     /// Unwelcome combinations of edges; each at most once.
     pub patterns: Vec<Pattern>,
-    /// For each pair of places the paths of which one at least must be active
-    /// throughout (equations 7 and 8), by their edges.
-    pub routes: Vec<Vec<Vec<usize>>>,
+    /// Routes between two places that have to be there, or cost something if
+    /// they are not (equations 7 and 8).
+    pub routes: Vec<Route>,
+    /// Sinks that are to be placed, besides those of `sinks`.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub placed: Option<PlacedSinks>,
     /// Rooms, if this is a floorplan.
     pub rooms: Option<Rooms>,
     /// lambda_L, the weight of length.
@@ -192,13 +197,16 @@ impl Problem {
                 return bad(format!("the weight of {name} is {weight}; give 0 or more"));
             }
         }
-        if !self.sinks.contains(&true) {
+        if let Some(what) = self.placed.as_ref().and_then(|p| p.fault(&self.sinks)) {
+            return bad(what);
+        }
+        if !self.sinks.contains(&true) && self.placed.is_none() {
             return bad("there is no sink, so nothing can be reached".to_owned());
         }
         let edge_lists = self.patterns.iter().flat_map(|p| [&p.active, &p.inactive]);
         let rooms = self.rooms.iter().flat_map(|r| &r.placements);
         let edge_lists = edge_lists
-            .chain(self.routes.iter().flatten())
+            .chain(self.routes.iter().flat_map(|route| &route.paths))
             .chain(rooms.clone().flat_map(|r| [&r.inner, &r.border]));
         if let Some(e) = edge_lists.flatten().find(|&&e| e >= edges) {
             return bad(format!("edge {e} is named, of {edges}"));
@@ -222,6 +230,12 @@ impl Problem {
                 return bad(format!("face {f} is named, of {faces}"));
             }
         }
+        let mut costs = self.routes.iter().filter_map(|r| r.cost);
+        if let Some(cost) = costs.find(|c| !(*c >= 0.0 && c.is_finite())) {
+            return bad(format!(
+                "a route that is not there costs {cost}; give 0 or more, or demand it"
+            ));
+        }
         let mut costs = self.patterns.iter().filter_map(|p| p.cost);
         if let Some(cost) = costs.find(|c| !(*c >= 0.0 && c.is_finite())) {
             return bad(format!(
@@ -232,7 +246,7 @@ impl Problem {
     }
 }
 
-/// An answer: which edges are active, and which rooms are placed.
+/// An answer: which edges are active, and which rooms and sinks are placed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Network {
@@ -240,4 +254,7 @@ pub struct Network {
     pub active: Vec<bool>,
     /// Positions of the placed rooms, ascending.
     pub rooms: Vec<usize>,
+    /// The sinks that were placed, ascending; empty if the problem knows all.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub sinks: Vec<usize>,
 }

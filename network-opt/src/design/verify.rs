@@ -73,6 +73,16 @@ pub enum Violation {
         /// The edge.
         edge: usize,
     },
+    /// Another number of sinks is placed than there are to be.
+    SinkCount {
+        /// How many are, those of [`Violation::NoPlace`] not counted.
+        sinks: usize,
+    },
+    /// A sink is placed where none may be, or twice at one vertex.
+    NoPlace {
+        /// The vertex.
+        vertex: usize,
+    },
     /// A room that does not exist.
     NoRoom {
         /// Its number.
@@ -97,6 +107,12 @@ impl fmt::Display for Violation {
             Self::Tiling { face, rooms } => write!(f, "face {face} is covered by {rooms} rooms"),
             Self::NoDoor { room } => write!(f, "room {room} is on no corridor"),
             Self::Crossed { room, edge } => write!(f, "corridor {edge} runs through room {room}"),
+            Self::SinkCount { sinks } => {
+                write!(f, "{sinks} sinks are placed, not as many as asked")
+            }
+            Self::NoPlace { vertex } => {
+                write!(f, "no sink may be placed at vertex {vertex}, or not twice")
+            }
             Self::NoRoom { room } => write!(f, "there is no room {room}"),
         }
     }
@@ -115,6 +131,9 @@ pub struct Cost {
     pub travel: f64,
     /// What patterns cost that are not forbidden.
     pub patterns: f64,
+    /// What routes cost that are not there and need not be.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub routes: f64,
 }
 
 /// The way from each vertex to its nearest sink over active edges; infinite
@@ -162,7 +181,8 @@ impl Ord for Length {
 }
 
 /// What a network costs, valid or not. Patterns that are forbidden cost
-/// nothing here.
+/// nothing here, nor do routes that have to be there. Where sinks are to be
+/// placed, see [`cost_of`](super::cost_of).
 ///
 /// # Panics
 ///
@@ -183,6 +203,8 @@ pub fn cost(problem: &Problem, active: &[bool]) -> Cost {
         .filter(|p| occurs(p, active))
         .filter_map(|p| p.cost)
         .sum();
+    let missing = problem.routes.iter().filter(|r| !r.is_there(active));
+    let routes = missing.filter_map(|r| r.cost).sum();
     // An island's way is infinite; 0 times that is not a number.
     let travelled = if problem.travel_weight > 0.0 {
         problem.travel_weight * travel
@@ -190,10 +212,11 @@ pub fn cost(problem: &Problem, active: &[bool]) -> Cost {
         0.0
     };
     Cost {
-        objective: problem.length_weight * length + travelled + patterns,
+        objective: problem.length_weight * length + travelled + patterns + routes,
         length,
         travel,
         patterns,
+        routes,
     }
 }
 
@@ -218,7 +241,7 @@ pub(super) fn occurs(pattern: &super::Pattern, active: &[bool]) -> bool {
 ///     length_weight: 1.0,
 ///     ..Problem::default()
 /// };
-/// let both = Network { active: vec![true, true], rooms: vec![] };
+/// let both = Network { active: vec![true, true], ..Network::default() };
 /// assert_eq!(verify(&problem, &both), [Violation::DeadEnd { vertex: 2 }]);
 /// ```
 #[must_use]
@@ -226,6 +249,9 @@ pub fn verify(problem: &Problem, network: &Network) -> Vec<Violation> {
     let active = &network.active;
     if active.len() != problem.edges() {
         return vec![Violation::WrongSize];
+    }
+    if problem.placed.is_some() || !network.sinks.is_empty() {
+        return super::placed::verify_placed(problem, network);
     }
     let mut found = Vec::new();
     for (edge, state) in problem.states.iter().enumerate() {
@@ -269,8 +295,8 @@ pub fn verify(problem: &Problem, network: &Network) -> Vec<Violation> {
             found.push(Violation::Pattern { pattern, kind });
         }
     }
-    for (route, paths) in problem.routes.iter().enumerate() {
-        if !paths.iter().any(|path| path.iter().all(|&e| active[e])) {
+    for (route, r) in problem.routes.iter().enumerate() {
+        if r.cost.is_none() && !r.is_there(active) {
             found.push(Violation::NoRoute { route });
         }
     }
@@ -336,7 +362,7 @@ mod tests {
         edges.iter().for_each(|&e| active[e] = true);
         Network {
             active,
-            rooms: vec![],
+            ..Network::default()
         }
     }
 
@@ -403,13 +429,16 @@ mod tests {
         assert_eq!(with(close, &[0, 5, 2, 4]).len(), 1);
         assert_eq!(
             with(
-                |p| p.routes = vec![vec![vec![1, 6], vec![5, 3]]],
+                |p| p.routes = vec![vec![vec![1, 6], vec![5, 3]].into()],
                 &[0, 5, 2, 4]
             ),
             [Violation::NoRoute { route: 0 }]
         );
         assert_eq!(
-            with(|p| p.routes = vec![vec![vec![1, 6], vec![5, 3]]], &ring),
+            with(
+                |p| p.routes = vec![vec![vec![1, 6], vec![5, 3]].into()],
+                &ring
+            ),
             []
         );
         assert_eq!(

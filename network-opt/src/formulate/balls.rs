@@ -20,6 +20,9 @@
 //! edges at least, one of them within B, so one in delta(B); and these are two
 //! edges, because an edge of delta(B) has one end in B. []
 //!
+//! If v may become a sink, that is added to the left as often as stands on the
+//! right: for all v of B where s_v is 0 the proof is the same.
+//!
 //! A cycle that contains all edges of a forbidden pattern (without inactive
 //! edges) is never active throughout: with too close edges forbidden and a range
 //! of two edges on a grid, only the cycle of eight edges around the middle is
@@ -39,11 +42,14 @@ use super::draft::{Draft, Term};
 pub(super) fn add(draft: &mut Draft<'_>) {
     let sets = least_sets(draft);
     for set in sets {
-        if set.iter().any(|&v| draft.problem.sinks[v]) {
+        if set.iter().any(|&v| draft.s[v] == Term::On) {
             continue;
         }
         for (edges, least) in cuts(draft, &set, &BTreeSet::new()) {
-            let terms: Vec<_> = edges.iter().map(|&e| (draft.x[e], 1.0)).collect();
+            // Where a sink is placed within, the cut says nothing.
+            let placed = set.iter().map(|&v| (draft.s[v], least));
+            let terms = edges.iter().map(|&e| (draft.x[e], 1.0)).chain(placed);
+            let terms: Vec<_> = terms.collect();
             draft.row(least, f64::INFINITY, terms);
         }
     }

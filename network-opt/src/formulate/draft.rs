@@ -25,6 +25,9 @@ pub(super) struct Draft<'p> {
     pub(super) x: Vec<Term>,
     /// Each vertex; set by [`activity`](super::activity).
     pub(super) y: Vec<Term>,
+    /// Whether each vertex is a sink; candidates are columns, set by
+    /// [`sinks`](super::sinks).
+    pub(super) s: Vec<Term>,
     /// Whether a row cannot hold, whatever the columns are.
     pub(super) contradicts: bool,
 }
@@ -53,6 +56,9 @@ impl<'p> Draft<'p> {
             program,
             x,
             y: Vec::new(),
+            s: (problem.sinks.iter())
+                .map(|&sink| if sink { Term::On } else { Term::Off })
+                .collect(),
             contradicts: false,
         };
         if constant != 0.0 {
@@ -110,6 +116,8 @@ pub(super) struct Known<'p> {
     pub(super) problem: &'p Problem,
     pub(super) active: &'p [bool],
     pub(super) rooms: &'p [usize],
+    /// Whether each vertex is a sink, those chosen included.
+    pub(super) sinks: Vec<bool>,
     pub(super) degree: Vec<usize>,
     /// The way of each vertex to a sink.
     pub(super) away: Vec<f64>,
@@ -122,7 +130,8 @@ pub(super) struct Known<'p> {
 impl<'p> Known<'p> {
     pub(super) fn new(problem: &'p Problem, network: &'p Network) -> Self {
         let active = network.active.as_slice();
-        let away = distances(problem, active);
+        let settled = problem.settled(&network.sinks);
+        let away = distances(&settled, active);
         let mut degree = vec![0; problem.vertices];
         let mut next = vec![None; problem.vertices];
         for (e, &[a, b]) in problem.ends.iter().enumerate() {
@@ -147,6 +156,7 @@ impl<'p> Known<'p> {
             problem,
             active,
             rooms: &network.rooms,
+            sinks: settled.sinks.clone(),
             degree,
             away,
             next,

@@ -11,9 +11,11 @@
 //!
 //! Given edges carry any flow and cost nothing, so vertices that they join are
 //! one here: with a sink among them they are a sink; else they send one unit,
-//! because a given street without a way to a sink is an island.
+//! because a given street without a way to a sink is an island. What may become
+//! a sink has an outlet, as [`sinks`](super::sinks) says.
 
 use super::draft::{Draft, Fill, Known, Term};
+use super::sinks::Outlets;
 
 /// A flow between groups of vertices that given edges join.
 #[derive(Debug)]
@@ -26,6 +28,7 @@ pub(super) struct Flow {
     orphan: Vec<bool>,
     /// The columns of each edge's flow from its first end and from its second.
     along: Vec<[Option<usize>; 2]>,
+    outlets: Outlets,
 }
 
 /// Whether given edges are apart from every sink, so that more than the flow of
@@ -95,6 +98,12 @@ pub(super) fn add(draft: &mut Draft<'_>) -> Flow {
         }
         draft.row(f64::NEG_INFINITY, 0.0, capacity);
     }
+    let outlets = Outlets::new(draft, most, |v| !sink[group[v]]);
+    for v in 0..group.len() {
+        if let Some(a) = outlets.at(v) {
+            balance[group[v]].push((Term::Column(a), 1.0));
+        }
+    }
     for &v in &senders {
         let sends = if orphan[v] { Term::On } else { draft.y[v] };
         let mut terms = std::mem::take(&mut balance[v]);
@@ -106,6 +115,7 @@ pub(super) fn add(draft: &mut Draft<'_>) -> Flow {
         sink,
         orphan,
         along,
+        outlets,
     }
 }
 
@@ -121,11 +131,19 @@ impl Fill for Flow {
                 around[b].push((e, a, 0));
             }
         }
+        // One of the chosen sinks of each group, where all of it leaves.
+        let mut outlet = vec![None; count];
+        let mut seen = self.sink.clone();
+        for v in (0..count).filter(|&v| known.sinks[v]) {
+            seen[self.group[v]] = true;
+            if let Some(a) = self.outlets.at(v) {
+                outlet[self.group[v]] = Some(a);
+            }
+        }
         let mut order: Vec<usize> = (0..count)
-            .filter(|&v| self.group[v] == v && self.sink[v])
+            .filter(|&v| self.group[v] == v && seen[v])
             .collect();
         let mut next = vec![None; count];
-        let mut seen = self.sink.clone();
         let mut at = 0;
         while at < order.len() {
             let to = order[at];
@@ -141,11 +159,14 @@ impl Fill for Flow {
         }
         let mut carried = vec![0.0; count];
         for &v in order.iter().rev() {
+            let sends = self.orphan[v] || known.degree[v] > 0;
+            carried[v] += f64::from(u8::from(sends));
+            if let Some(a) = outlet[v] {
+                values[a] = carried[v];
+            }
             let Some((e, to, side)) = next[v] else {
                 continue;
             };
-            let sends = self.orphan[v] || known.degree[v] > 0;
-            carried[v] += f64::from(u8::from(sends));
             carried[to] += carried[v];
             if let Some(column) = self.along[e][side] {
                 values[column] = carried[v];

@@ -3,7 +3,7 @@
 //! One module for each family of constraints, each with its equation:
 //! `activity` (1), `dead_ends` (2), `coverage` (3), `patterns` (4, 5), `balls`
 //! (6), `flow` (7), `travel` (8), `single_sink` (9), `routes`, `rooms` (15 to
-//! 19), and `paper`, the formulation of Peng et al. 2016 as they wrote it.
+//! 19), `sinks` (20), and `paper`, the formulation of Peng et al. 2016 as they wrote it.
 
 mod activity;
 mod balls;
@@ -18,6 +18,7 @@ mod prepare;
 mod rooms;
 mod routes;
 mod single_sink;
+mod sinks;
 mod travel;
 
 use crate::design::{Network, Problem};
@@ -64,7 +65,10 @@ impl Formulation {
         let sinks = problem.sinks.iter().filter(|&&sink| sink).count();
         if problem.travel_weight == 0.0 {
             Self::Flow
-        } else if sinks == 1 && problem.travel_weight >= problem.length_weight {
+        } else if sinks == 1
+            && problem.placed.is_none()
+            && problem.travel_weight >= problem.length_weight
+        {
             Self::SingleSink
         } else {
             Self::TravelFlow
@@ -80,6 +84,7 @@ pub struct Formulated<'p> {
     program: Program,
     x: Vec<Term>,
     rooms: Option<usize>,
+    placed: sinks::Placed,
     families: Vec<Family>,
     contradicts: bool,
     longest: Option<Vec<f64>>,
@@ -145,6 +150,7 @@ impl<'p> Formulated<'p> {
         let mut families: Vec<Family> = Vec::new();
         let mut plain = |family: Box<dyn Fill>| families.push(Family::Plain(family));
         plain(Box::new(activity::add(&mut draft, tight)));
+        let placed = sinks::add(&mut draft);
         dead_ends::add(&mut draft);
         coverage::add(&mut draft);
         plain(Box::new(routes::add(&mut draft, tight)));
@@ -180,6 +186,7 @@ impl<'p> Formulated<'p> {
             program,
             x: draft.x,
             rooms,
+            placed,
             families,
             contradicts: draft.contradicts,
             longest,
@@ -233,6 +240,7 @@ impl<'p> Formulated<'p> {
         Network {
             active: active.collect(),
             rooms: (self.room_family()).map_or_else(Vec::new, |rooms| rooms.placed(values)),
+            sinks: self.placed.chosen(values),
         }
     }
 
@@ -255,6 +263,7 @@ impl<'p> Formulated<'p> {
         let mut values: Vec<f64> = columns
             .map(|c| if c.low == c.high { c.low } else { 0.0 })
             .collect();
+        self.placed.fill(&known, &mut values);
         for family in &self.families {
             match family {
                 Family::Plain(family) => family.fill(&known, &mut values),
@@ -314,7 +323,7 @@ impl<'p> Formulated<'p> {
         self.program.row(row.low, row.high, row.terms);
     }
 
-    /// Adds a row: length and patterns cost `low` at least and `high` at most,
+    /// Adds a row: length, patterns and routes cost `low` at least and `high` at most,
     /// by their weights. Patterns of [`Formulation::Paper`] are not counted.
     pub fn limit_length(&mut self, low: f64, high: f64) {
         let columns = self.program.columns()[..self.plain].iter().enumerate();
@@ -343,7 +352,8 @@ fn step(problem: &Problem, formulation: Formulation) -> f64 {
         _ => problem.travel_weight * length,
     };
     let patterns = fold(&mut problem.patterns.iter().filter_map(|p| p.cost));
-    let step = fold(&mut [problem.length_weight * length, travel, patterns].into_iter());
+    let routes = fold(&mut problem.routes.iter().filter_map(|r| r.cost));
+    let step = fold(&mut [problem.length_weight * length, travel, patterns, routes].into_iter());
     if step > 1e-5 {
         step
     } else {

@@ -22,6 +22,9 @@
 //! half-edge, so row (2) of [`dead_ends`](super::dead_ends) is kept beside it:
 //! else the program would answer another question than all others.
 //!
+//! Where v_j may become a sink (which the paper has in its figure 8e, but not in
+//! its equations), that stands on the right of (3) and (10) as well.
+//!
 //! The recursion (2) adds the first edge of a way and not the last, so D is the
 //! way of v_j to its sink only if all edges are of length 1. Given edges have
 //! half-edges, but their D is free of charge, as is their length; those between
@@ -126,6 +129,7 @@ fn follow(draft: &mut Draft<'_>, columns: &mut HalfEdges, e: usize, k: usize, al
         draft.row(f64::NEG_INFINITY, all - problem.lengths[e], step);
         any.push((l, -1.0));
     }
+    any.push((draft.s[j], -1.0));
     draft.row(f64::NEG_INFINITY, 0.0, any);
     if !problem.dead_ends {
         let column = draft.program.binary(0.0);
@@ -136,7 +140,12 @@ fn follow(draft: &mut Draft<'_>, columns: &mut HalfEdges, e: usize, k: usize, al
         terms.push((nu, -n));
         let low = if next.is_empty() { 0.0 } else { 1.0 - n };
         draft.row(low, 0.0, terms);
-        draft.row(f64::NEG_INFINITY, 0.0, [(active, 1.0), (nu, -1.0)]);
+        let s = draft.s[j];
+        draft.row(
+            f64::NEG_INFINITY,
+            0.0,
+            [(active, 1.0), (nu, -1.0), (s, -1.0)],
+        );
     }
 }
 
@@ -166,7 +175,7 @@ impl Fill for HalfEdges {
         let mut gone = vec![0.0; problem.vertices];
         for &v in &known.order {
             if let Some((e, w)) = known.next[v] {
-                let at_sink = problem.sinks[w];
+                let at_sink = known.sinks[w];
                 gone[v] = if at_sink {
                     0.0
                 } else {
@@ -186,7 +195,7 @@ impl Fill for HalfEdges {
                 }
             };
             set(self.active[e][k], 1.0);
-            if problem.sinks[to] {
+            if known.sinks[to] {
                 continue;
             }
             set(self.distance[e][k], problem.lengths[e] + gone[to]);

@@ -36,13 +36,15 @@ pub fn prepare(problem: &Problem) -> Vec<Fate> {
         })
         .collect();
     let around = problem.around();
+    // What may become a sink may be a dead end, or what others lead to.
+    let sinks = problem.possible_sinks();
     loop {
         let before = fates.clone();
         patterns(problem, &mut fates);
         if !problem.dead_ends {
-            dead_ends(problem, &around, &mut fates);
+            dead_ends(&sinks, &around, &mut fates);
         }
-        islands(problem, &around, &mut fates);
+        islands(problem, &sinks, &around, &mut fates);
         if fates == before {
             return fates;
         }
@@ -71,12 +73,12 @@ fn patterns(problem: &Problem, fates: &mut [Fate]) {
     }
 }
 
-fn dead_ends(problem: &Problem, around: &[Vec<(usize, usize)>], fates: &mut [Fate]) {
+fn dead_ends(sinks: &[bool], around: &[Vec<(usize, usize)>], fates: &mut [Fate]) {
     // Vertices whose edges have changed, so that a chain of dead ends is
     // removed in one go.
-    let mut queue: Vec<usize> = (0..problem.vertices).collect();
+    let mut queue: Vec<usize> = (0..sinks.len()).collect();
     while let Some(v) = queue.pop() {
-        if problem.sinks[v] {
+        if sinks[v] {
             continue;
         }
         let count = |fate| around[v].iter().filter(|&&(e, _)| fates[e] == fate).count();
@@ -94,8 +96,8 @@ fn dead_ends(problem: &Problem, around: &[Vec<(usize, usize)>], fates: &mut [Fat
     }
 }
 
-fn islands(problem: &Problem, around: &[Vec<(usize, usize)>], fates: &mut [Fate]) {
-    let mut reached = problem.sinks.clone();
+fn islands(problem: &Problem, sinks: &[bool], around: &[Vec<(usize, usize)>], fates: &mut [Fate]) {
+    let mut reached = sinks.to_vec();
     let mut queue: Vec<usize> = (0..problem.vertices).filter(|&v| reached[v]).collect();
     while let Some(v) = queue.pop() {
         for &(e, w) in &around[v] {

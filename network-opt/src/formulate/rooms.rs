@@ -96,10 +96,13 @@ pub(super) fn add(draft: &mut Draft<'_>, tight: bool) -> Option<Rooms> {
         terms.push((r[k], 1.0));
         draft.row(f64::NEG_INFINITY, 0.0, terms);
     }
+    // Where a sink may be placed they would need its column; there are few such
+    // borders.
+    let sinks = draft.problem.possible_sinks();
     let cuts = rooms.placements.iter().zip(&r).map(|(placement, &r)| {
         let ends = placement.border.iter().flat_map(|&e| draft.problem.ends[e]);
         let ball: BTreeSet<usize> = ends.collect();
-        if r == Term::Off || ball.iter().any(|&v| draft.problem.sinks[v]) {
+        if r == Term::Off || ball.iter().any(|&v| sinks[v]) {
             return Vec::new();
         }
         let ball: Vec<usize> = ball.into_iter().collect();

@@ -12,6 +12,8 @@
 //!
 //! c_e >= d_v - hi_v (1 - x_e) - (hi_v - lo_w) q_w,  c_e >= lo_v q_v + lo_w q_w.   (9b)
 //!
+//! A sink that is placed has no parent: the sum of its p is y_v - s_v.
+//!
 //! The least c is the way from the nearer end, as in
 //! [`cost`](crate::design::cost). lo_v is the way to a sink over all edges that
 //! may be active, hi_v what [`longest_ways`] says: (9) is the better the less
@@ -43,12 +45,21 @@ pub fn longest_ways(problem: &Problem, cost: f64) -> Vec<f64> {
     let fates = prepare(problem);
     let possible: Vec<bool> = fates.iter().map(|&fate| fate != Fate::Off).collect();
     let given: Vec<bool> = (0..problem.edges()).map(|e| problem.is_given(e)).collect();
-    let (least, over_given) = (distances(problem, &possible), distances(problem, &given));
+    let least = distances(&problem.eased(), &possible);
+    let mut over_given = distances(problem, &given);
     let sum =
         |edges: &mut dyn Iterator<Item = usize>| edges.map(|e| problem.lengths[e]).sum::<f64>();
     let mut apart =
         (0..problem.edges()).filter(|&e| given[e] && over_given[problem.ends[e][0]].is_infinite());
     let extra = sum(&mut apart);
+    // Where a sink may be placed a way may end.
+    for &v in problem.placed.iter().flat_map(|placed| &placed.candidates) {
+        over_given[v] = if over_given[v].is_finite() {
+            over_given[v]
+        } else {
+            0.0
+        };
+    }
     let longest = (0..problem.edges())
         .filter(|&e| possible[e])
         .map(|e| problem.lengths[e])
@@ -137,7 +148,7 @@ pub(super) fn add(draft: &mut Draft<'_>, longest: Option<&[f64]>) -> Distances {
     let problem = draft.problem;
     let edges = problem.edges();
     let possible: Vec<bool> = (0..edges).map(|e| draft.possible(e)).collect();
-    let least = distances(problem, &possible);
+    let least = distances(&problem.eased(), &possible);
     let all: f64 = problem.lengths.iter().sum();
     let mut columns = Distances {
         parent: vec![[None; 2]; edges],
@@ -217,7 +228,7 @@ pub(super) fn add(draft: &mut Draft<'_>, longest: Option<&[f64]>) -> Distances {
     }
     for (v, mut terms) in parents.into_iter().enumerate() {
         if !problem.sinks[v] {
-            terms.push((draft.y[v], -1.0));
+            terms.extend([(draft.y[v], -1.0), (draft.s[v], 1.0)]);
             draft.row(0.0, 0.0, terms);
         }
     }

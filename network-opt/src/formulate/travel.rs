@@ -15,9 +15,11 @@
 //!
 //! n is the number of edges that may send; fewer, say the number of vertices,
 //! would cut off solutions. An edge at a sink has nothing to pay and sends
-//! nothing. Given edges carry what they are asked to.
+//! nothing. Given edges carry what they are asked to. What may become a sink has
+//! an outlet, as [`sinks`](super::sinks) says; an edge there sends its unit.
 
 use super::draft::{Draft, Fill, Known, Term};
+use super::sinks::Outlets;
 
 /// The columns of rows (8).
 #[derive(Debug)]
@@ -26,6 +28,7 @@ pub(super) struct Travel {
     sent: Vec<[Option<usize>; 2]>,
     /// Each edge: the flow from its first and from its second end.
     along: Vec<[Option<usize>; 2]>,
+    outlets: Outlets,
 }
 
 /// Adds columns and rows (8).
@@ -41,6 +44,7 @@ pub(super) fn add(draft: &mut Draft<'_>) -> Travel {
     let mut travel = Travel {
         sent: vec![[None; 2]; edges],
         along: vec![[None; 2]; edges],
+        outlets: Outlets::new(draft, most, |_| true),
     };
     for e in 0..edges {
         if !draft.possible(e) || sinks(e) == [true; 2] {
@@ -75,6 +79,8 @@ pub(super) fn add(draft: &mut Draft<'_>) -> Travel {
     }
     for (v, terms) in balance.into_iter().enumerate() {
         if !problem.sinks[v] {
+            let outlet = travel.outlets.at(v).map(|a| (Term::Column(a), 1.0));
+            let terms: Vec<_> = terms.into_iter().chain(outlet).collect();
             draft.row(0.0, 0.0, terms);
         }
     }
@@ -96,6 +102,9 @@ impl Fill for Travel {
         }
         for &v in known.order.iter().rev() {
             let Some((e, to)) = known.next[v] else {
+                if let Some(a) = self.outlets.at(v) {
+                    values[a] = carried[v];
+                }
                 continue;
             };
             carried[to] += carried[v];

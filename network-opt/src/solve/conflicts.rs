@@ -2,7 +2,7 @@
 //! way.
 
 use super::{Ended, Exact, Limits, NetworkSolver};
-use crate::design::{EdgeState, PatternKind, Problem};
+use crate::design::{EdgeState, PatternKind, Problem, RouteKind};
 use crate::error::DesignError;
 use crate::mip::MipSolver;
 
@@ -23,12 +23,20 @@ pub enum Constraints {
     DeadEnds,
     /// That a pattern does not occur.
     Pattern(PatternKind),
-    /// That routes are there.
+    /// That routes are there that were asked for.
     Routes,
+    /// That places inside are joined: the point-to-point constraint.
+    Inside,
+    /// That places on the boundary are joined.
+    Across,
     /// That rooms tile the floor, on corridors.
     Rooms,
-    /// That all is within reach of a sink: without it every vertex is one.
+    /// That all is within reach of a sink: without it every vertex is one, and
+    /// none is to be placed.
     Connectivity,
+    /// That so many sinks are placed, each on a street: without it all the
+    /// candidates are sinks.
+    PlacedSinks,
 }
 
 /// What makes a problem infeasible.
@@ -93,6 +101,10 @@ pub fn conflicts<M: MipSolver>(
                 .filter(|p| p.cost.is_none())
                 .cloned()
                 .collect(),
+            routes: (problem.routes.iter())
+                .filter(|r| r.cost.is_none())
+                .cloned()
+                .collect(),
             ..problem.clone()
         };
         let exact = Exact::new(solver);
@@ -139,6 +151,10 @@ fn families(problem: &Problem) -> Vec<Constraints> {
         .collect();
     kinds.sort_unstable();
     kinds.dedup();
+    let needs = |kind| {
+        let mut routes = problem.routes.iter();
+        routes.any(|r| r.kind == kind && r.cost.is_none())
+    };
     let plain = [
         (!problem.coverage.is_empty(), Constraints::Coverage),
         (
@@ -151,7 +167,10 @@ fn families(problem: &Problem) -> Vec<Constraints> {
         ),
         (has(EdgeState::Closed), Constraints::ClosedEdges),
         (!problem.dead_ends, Constraints::DeadEnds),
-        (!problem.routes.is_empty(), Constraints::Routes),
+        (needs(RouteKind::Asked), Constraints::Routes),
+        (needs(RouteKind::Inside), Constraints::Inside),
+        (needs(RouteKind::Across), Constraints::Across),
+        (problem.placed.is_some(), Constraints::PlacedSinks),
         (problem.rooms.is_some(), Constraints::Rooms),
         (true, Constraints::Connectivity),
     ];
@@ -164,6 +183,12 @@ fn families(problem: &Problem) -> Vec<Constraints> {
         .collect();
     families.sort_unstable();
     families
+}
+
+/// Leaves out the routes of a kind that have to be there.
+fn drop_routes(problem: &mut Problem, kind: RouteKind) {
+    let routes = &mut problem.routes;
+    routes.retain(|route| route.kind != kind || route.cost.is_some());
 }
 
 /// The problem without some families.
@@ -185,9 +210,15 @@ fn without(problem: &Problem, families: &[Constraints]) -> Problem {
             Constraints::Pattern(kind) => {
                 rest.patterns.retain(|p| p.kind != kind || p.cost.is_some());
             }
-            Constraints::Routes => rest.routes.clear(),
+            Constraints::Routes => drop_routes(&mut rest, RouteKind::Asked),
+            Constraints::Inside => drop_routes(&mut rest, RouteKind::Inside),
+            Constraints::Across => drop_routes(&mut rest, RouteKind::Across),
+            Constraints::PlacedSinks => rest = rest.eased().into_owned(),
             Constraints::Rooms => rest.rooms = None,
-            Constraints::Connectivity => rest.sinks.iter_mut().for_each(|sink| *sink = true),
+            Constraints::Connectivity => {
+                rest.sinks.iter_mut().for_each(|sink| *sink = true);
+                rest.placed = None;
+            }
         }
     }
     rest

@@ -26,21 +26,28 @@ pub(super) struct Best {
 }
 
 const FIRST_CYCLE: u64 = 2000;
+/// Where sinks are decides what a network looks like, and they seldom move far
+/// once there are streets. So where they are to be placed cycles begin anew as a
+/// rule, elsewhere, and are long enough to tell good places.
+const PLACING_CYCLE: u64 = 8000;
 
 impl<'m, 'p> Anneal<'m, 'p> {
     pub(super) fn new(model: &'m Model<'p>, start: Option<&Network>, seed: u64) -> Self {
         let mut walk = Walk::new(model, seed);
         if let Some(start) = start {
-            walk.state
-                .become_network(model, &start.active, &start.rooms);
+            walk.state.become_network(model, start);
         }
         let at = Score::of(model, &walk.state, &mut walk.ways);
+        let cycle = match model.placing {
+            Some(_) => PLACING_CYCLE,
+            None => FIRST_CYCLE,
+        };
         let mut anneal = Self {
             walk,
             at,
             best: None,
             done: 0,
-            cycle: FIRST_CYCLE,
+            cycle,
             hot: model.unit,
         };
         anneal.note();
@@ -79,6 +86,15 @@ impl<'m, 'p> Anneal<'m, 'p> {
         self.done += 1;
         if self.done == self.cycle {
             self.done = 0;
+            if self.walk.model.placing.is_some() {
+                self.cycle += self.cycle / 4;
+                if self.best.is_none() || self.walk.dice.chance(0.6) {
+                    self.afresh();
+                } else {
+                    self.restart();
+                }
+                return improved;
+            }
             self.cycle *= 2;
             if self.best.is_none() {
                 self.afresh();
@@ -95,6 +111,8 @@ impl<'m, 'p> Anneal<'m, 'p> {
         let walk = &mut self.walk;
         walk.fines = Fines::new(walk.model.unit);
         walk.state = State::new(walk.model);
+        walk.scatter_sinks();
+        walk.state.settle();
         self.at = Score::of(walk.model, &walk.state, &mut walk.ways);
     }
 
@@ -102,8 +120,7 @@ impl<'m, 'p> Anneal<'m, 'p> {
     fn restart(&mut self) {
         if let Some(best) = &self.best {
             let walk = &mut self.walk;
-            walk.state
-                .become_network(walk.model, &best.network.active, &best.network.rooms);
+            walk.state.become_network(walk.model, &best.network);
             self.at = Score::of(walk.model, &walk.state, &mut walk.ways);
         }
     }
@@ -115,13 +132,8 @@ impl<'m, 'p> Anneal<'m, 'p> {
             return false;
         }
         let state = &self.walk.state;
-        let mut rooms = state.rooms.placed.items().to_vec();
-        rooms.sort_unstable();
         self.best = Some(Best {
-            network: Network {
-                active: state.active.clone(),
-                rooms,
-            },
+            network: state.network(),
             objective: self.at.objective,
         });
         if !state.charged.is_empty() && self.at.objective > 0.0 {

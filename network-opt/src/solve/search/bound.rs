@@ -201,6 +201,7 @@ fn quantum(problem: &crate::design::Problem) -> f64 {
         problem.travel_weight * length,
     ];
     parts.extend(problem.patterns.iter().filter_map(|p| p.cost));
+    parts.extend(problem.routes.iter().filter_map(|r| r.cost));
     parts.retain(|&p| p > 0.0);
     let least = parts.iter().copied().fold(f64::INFINITY, f64::min);
     let whole = |p: &f64| (p / least - (p / least).round()).abs() < 1e-12 * p / least;

@@ -81,7 +81,7 @@ impl Finder {
             if gone > self.cost[v] {
                 continue;
             }
-            if v != from && state.is_stop(model, v) {
+            if v != from && state.is_stop(v) {
                 let mut at = v;
                 while self.by[at] != NONE {
                     let e = self.by[at];
@@ -105,7 +105,7 @@ impl Finder {
                 if self.round[w] == now && self.cost[w] <= gone {
                     continue;
                 }
-                let stop = state.is_stop(model, w);
+                let stop = state.is_stop(w);
                 if stop && manner.reached && away[w].is_infinite() {
                     continue;
                 }

@@ -1,7 +1,4 @@
-//! Lists of lists in one piece of memory, subsets, and dice.
-
-use rand_pcg::rand_core::{Rng, SeedableRng};
-use rand_pcg::Pcg64Mcg;
+//! Lists of lists in one piece of memory, and subsets.
 
 /// A list of lists that no longer change.
 #[derive(Clone, Debug)]
@@ -103,45 +100,10 @@ impl Subset {
     }
 }
 
-/// A stream of random numbers that is the same everywhere.
-#[derive(Debug)]
-pub(super) struct Dice(Pcg64Mcg);
-
-impl Dice {
-    pub(super) fn new(seed: u64) -> Self {
-        Self(Pcg64Mcg::seed_from_u64(seed))
-    }
-
-    pub(super) fn bits(&mut self) -> u64 {
-        self.0.next_u64()
-    }
-
-    /// One of `0..count`, which is not empty.
-    pub(super) fn below(&mut self, count: usize) -> usize {
-        ((u128::from(self.bits()) * count as u128) >> 64) as usize
-    }
-
-    /// From 0 to less than 1.
-    pub(super) fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    pub(super) fn chance(&mut self, share: f64) -> bool {
-        self.unit() < share
-    }
-
-    /// One of the things, if there is any.
-    pub(super) fn pick<T: Copy>(&mut self, things: &[T]) -> Option<T> {
-        if things.is_empty() {
-            return None;
-        }
-        Some(things[self.below(things.len())])
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dice::Dice;
 
     #[test]
     fn subsets_keep_what_they_are_told() {
@@ -179,22 +141,5 @@ mod tests {
             (turned.of(0), turned.of(1), turned.of(2)),
             (&[0][..], &[][..], &[0, 2][..])
         );
-    }
-
-    #[test]
-    fn dice_are_fair_and_repeatable() {
-        let (mut a, mut b) = (Dice::new(5), Dice::new(5));
-        let mut counts = [0; 6];
-        for _ in 0..6000 {
-            let k = a.below(6);
-            assert_eq!(k, b.below(6));
-            counts[k] += 1;
-        }
-        // The deviation of each count is sqrt(6000 * 1/6 * 5/6) = 29; six of them.
-        assert!(
-            counts.iter().all(|&c: &i32| (c - 1000).abs() < 174),
-            "{counts:?}"
-        );
-        assert_eq!(a.pick::<usize>(&[]), None);
     }
 }

@@ -21,6 +21,7 @@ mod ears;
 mod lists;
 mod model;
 mod moves;
+mod placing;
 mod rows;
 mod run;
 mod score;

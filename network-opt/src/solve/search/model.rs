@@ -5,6 +5,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::lists::{inverse, Lists};
+use super::placing::Placing;
 use crate::design::{EdgeState, Problem};
 
 /// What is decided of an edge.
@@ -39,6 +40,12 @@ pub(super) struct Model<'p> {
     /// The route of each path, and the paths of each route.
     pub(super) route_of: Vec<usize>,
     pub(super) routes: Lists<usize>,
+    /// What each route costs that is not there; `None` if it has to be.
+    pub(super) route_costs: Vec<Option<f64>>,
+    /// Whether each vertex is a sink or may become one.
+    pub(super) may_sink: Vec<bool>,
+    /// Sinks that are to be placed.
+    pub(super) placing: Option<Placing>,
     pub(super) rooms: Option<RoomModel>,
     /// The way of each vertex to a sink over given edges alone.
     pub(super) base: Vec<f64>,
@@ -85,6 +92,7 @@ impl<'p> Model<'p> {
     pub(super) fn new(problem: &'p Problem) -> Result<Self, Hopeless> {
         let (vertices, edges) = (problem.vertices, problem.edges());
         let around = Lists::new(problem.around());
+        let may_sink = problem.possible_sinks();
         let (patterns, pattern_costs) = literals(problem);
         let mut by_edge = vec![Vec::new(); edges];
         for p in 0..patterns.len() {
@@ -100,7 +108,8 @@ impl<'p> Model<'p> {
                 EdgeState::Closed => Fate::Off,
             })
             .collect();
-        decide(problem, &around, &patterns, &pattern_costs, &mut fates)?;
+        let parts = (&patterns, pattern_costs.as_slice());
+        decide(problem, &around, parts, &may_sink, &mut fates)?;
         let usable = |v: usize| around.of(v).iter().any(|&(e, _)| fates[e] != Fate::Off);
         let settled = |v: usize| around.of(v).iter().any(|&(e, _)| fates[e] == Fate::On);
         let triples = triples(&patterns, &pattern_costs, &fates);
@@ -119,8 +128,8 @@ impl<'p> Model<'p> {
         let rows_at = inverse(&rows, vertices);
 
         let given: Vec<bool> = (0..edges).map(|e| problem.is_given(e)).collect();
-        let base = ways(problem, &around, |e| given[e]);
-        let least = ways(problem, &around, |e| fates[e] != Fate::Off);
+        let base = ways(problem, &around, &problem.sinks, |e| given[e]);
+        let least = ways(problem, &around, &may_sink, |e| fates[e] != Fate::Off);
         let stray = (0..edges)
             .filter(|&e| given[e] && base[problem.ends[e][0]].is_infinite())
             .collect();
@@ -136,8 +145,8 @@ impl<'p> Model<'p> {
 
         let mut route_of = Vec::new();
         let mut paths = Vec::new();
-        for (r, options) in problem.routes.iter().enumerate() {
-            for path in options {
+        for (r, route) in problem.routes.iter().enumerate() {
+            for path in &route.paths {
                 if path.iter().all(|&e| fates[e] != Fate::Off) {
                     let mut path = path.clone();
                     path.sort_unstable();
@@ -151,9 +160,15 @@ impl<'p> Model<'p> {
         for (k, &r) in route_of.iter().enumerate() {
             routes[r].push(k);
         }
-        if routes.iter().any(Vec::is_empty) {
+        let route_costs: Vec<Option<f64>> = problem.routes.iter().map(|r| r.cost).collect();
+        let mut needed = routes.iter().zip(&route_costs);
+        if needed.any(|(paths, cost)| paths.is_empty() && cost.is_none()) {
             return Err(Hopeless);
         }
+        let placing = match &problem.placed {
+            Some(placed) => Some(Placing::new(placed, &around, &fates)?),
+            None => None,
+        };
         let paths = Lists::new(paths);
         let paths_at = inverse(&paths, edges);
         let rooms = problem
@@ -178,6 +193,9 @@ impl<'p> Model<'p> {
             paths_at,
             route_of,
             routes: Lists::new(routes),
+            route_costs,
+            may_sink,
+            placing,
             rooms,
             base,
             least,
@@ -287,8 +305,8 @@ fn triples(
 fn decide(
     problem: &Problem,
     around: &Lists<(usize, usize)>,
-    patterns: &Lists<(usize, bool)>,
-    costs: &[Option<f64>],
+    (patterns, costs): (&Lists<(usize, bool)>, &[Option<f64>]),
+    may_sink: &[bool],
     fates: &mut [Fate],
 ) -> Result<(), Hopeless> {
     loop {
@@ -313,7 +331,7 @@ fn decide(
                 _ => {}
             }
         }
-        for v in (0..problem.vertices).filter(|&v| !problem.dead_ends && !problem.sinks[v]) {
+        for v in (0..problem.vertices).filter(|&v| !problem.dead_ends && !may_sink[v]) {
             let mut usable = around.of(v).iter().filter(|&&(e, _)| fates[e] != Fate::Off);
             if let (Some(&(e, _)), None) = (usable.next(), usable.next()) {
                 if fates[e] == Fate::On {
@@ -352,15 +370,16 @@ fn undominated(mut rows: Vec<Vec<usize>>, vertices: usize) -> Vec<Vec<usize>> {
     rows
 }
 
-/// The way from each vertex to a sink over some of the edges.
+/// The way from each vertex to the nearest of some sinks over some of the edges.
 fn ways(
     problem: &Problem,
     around: &Lists<(usize, usize)>,
+    sinks: &[bool],
     may: impl Fn(usize) -> bool,
 ) -> Vec<f64> {
     let mut away = vec![f64::INFINITY; problem.vertices];
     let mut queue = BinaryHeap::new();
-    for v in (0..problem.vertices).filter(|&v| problem.sinks[v]) {
+    for v in (0..problem.vertices).filter(|&v| sinks[v]) {
         away[v] = 0.0;
         // Of numbers that are not negative the bits are in order.
         queue.push(Reverse((0.0_f64.to_bits(), v)));

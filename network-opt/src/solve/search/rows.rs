@@ -55,8 +55,8 @@ const STEPS: usize = 20_000;
 /// Finds the inequalities a few at a time, since there are many.
 #[derive(Debug)]
 pub(super) struct Quarry {
-    /// Vertices around which no further ring may be put: sinks, and those of
-    /// edges that are active anyway.
+    /// Vertices around which no further ring may be put: what may be a sink, and
+    /// those of edges that are active anyway.
     barrier: Vec<bool>,
     /// Rows, then faces, then edges that were dealt with.
     at: usize,
@@ -74,7 +74,7 @@ impl Quarry {
         };
         Self {
             barrier: (0..model.problem.vertices)
-                .map(|v| model.problem.sinks[v] || settled(v))
+                .map(|v| model.may_sink[v] || settled(v))
                 .collect(),
             at: 0,
             terms: 0,
@@ -478,7 +478,7 @@ mod tests {
                 let active: Vec<bool> = (0..problem.edges()).map(|e| set >> e & 1 == 1).collect();
                 let network = Network {
                     active,
-                    rooms: vec![],
+                    ..Network::default()
                 };
                 if !verify(&problem, &network).is_empty() {
                     continue;

@@ -2,6 +2,7 @@
 
 use super::lists::Subset;
 use super::model::{Fate, Model};
+use crate::design::Network;
 
 /// What was done, to be undone.
 #[derive(Clone, Copy, Debug)]
@@ -9,6 +10,8 @@ enum Deed {
     Flip(usize),
     Place(usize),
     Clear(usize),
+    /// A sink was moved from one vertex to another.
+    Move(usize, usize),
 }
 
 /// Active edges and placed rooms. Every change keeps the counters right and is
@@ -38,7 +41,15 @@ pub(super) struct State {
     /// routes without.
     pub(super) lacking: Vec<usize>,
     whole: Vec<usize>,
+    /// Those that have to be there, and what the others cost.
     pub(super) cut: Subset,
+    pub(super) lapsed: Subset,
+    pub(super) route_cost: f64,
+    /// Whether each vertex is a sink, those that were placed, and of those the
+    /// ones without an active edge.
+    pub(super) sinks: Vec<bool>,
+    pub(super) placed: Subset,
+    pub(super) idle: Subset,
     pub(super) rooms: Rooms,
     log: Vec<Deed>,
 }
@@ -90,7 +101,12 @@ impl State {
                 .map(|k| model.paths.of(k).len())
                 .collect(),
             whole: vec![0; model.routes.len()],
-            cut: all(model.routes.len()),
+            cut: Subset::new(model.routes.len()),
+            lapsed: Subset::new(model.routes.len()),
+            route_cost: 0.0,
+            sinks: model.problem.sinks.clone(),
+            placed: Subset::new(vertices),
+            idle: Subset::new(vertices),
             rooms: Rooms {
                 placed: Subset::new(placements),
                 owner: vec![None; covered.len()],
@@ -106,8 +122,17 @@ impl State {
         for k in 0..model.paths.len() {
             if state.lacking[k] == 0 {
                 state.whole[model.route_of[k]] += 1;
-                state.cut.remove(model.route_of[k]);
             }
+        }
+        for route in 0..model.routes.len() {
+            if state.whole[route] == 0 {
+                state.lapse(model, route, true);
+            }
+        }
+        for &v in model.placing.iter().flat_map(|placing| &placing.first) {
+            state.sinks[v] = true;
+            state.placed.insert(v);
+            state.idle.insert(v);
         }
         for p in (0..model.patterns.len()).filter(|&p| state.unmet[p] == 0) {
             match model.pattern_costs[p] {
@@ -145,7 +170,7 @@ impl State {
             if before.min(self.degree[v]) == 0 {
                 self.touch(model, v, on);
             }
-            if !model.problem.dead_ends && !model.problem.sinks[v] {
+            if !model.problem.dead_ends && !self.sinks[v] {
                 self.dead_ends.set(v, self.degree[v] == 1);
             }
         }
@@ -170,7 +195,9 @@ impl State {
                 } else {
                     self.whole[route] - 1
                 };
-                self.cut.set(route, self.whole[route] == 0);
+                if self.whole[route] == usize::from(on) {
+                    self.lapse(model, route, !on);
+                }
             }
         }
         if let Some(rooms) = &model.rooms {
@@ -178,8 +205,22 @@ impl State {
         }
     }
 
+    /// A route is no longer there, or is there again.
+    fn lapse(&mut self, model: &Model<'_>, route: usize, lapsed: bool) {
+        match model.route_costs[route] {
+            None => self.cut.set(route, lapsed),
+            Some(cost) => {
+                self.lapsed.set(route, lapsed);
+                self.route_cost += if lapsed { cost } else { -cost };
+            }
+        }
+    }
+
     /// A vertex has become active, or inactive.
     fn touch(&mut self, model: &Model<'_>, v: usize, on: bool) {
+        if self.placed.contains(v) {
+            self.idle.set(v, !on);
+        }
         for &row in model.rows_at.of(v) {
             if on {
                 self.covers[row] += 1;
@@ -225,8 +266,8 @@ impl State {
     }
 
     /// Whether a path may end here: at a sink or an active vertex.
-    pub(super) fn is_stop(&self, model: &Model<'_>, v: usize) -> bool {
-        self.degree[v] > 0 || model.problem.sinks[v]
+    pub(super) fn is_stop(&self, v: usize) -> bool {
+        self.degree[v] > 0 || self.sinks[v]
     }
 
     /// What was done so far, to come back to.
@@ -241,6 +282,7 @@ impl State {
                 Some(Deed::Flip(e)) => self.apply(model, e),
                 Some(Deed::Place(room)) => self.set_room(model, room, false),
                 Some(Deed::Clear(room)) => self.set_room(model, room, true),
+                Some(Deed::Move(from, to)) => self.shift(model, to, from),
                 None => break,
             }
         }
@@ -251,8 +293,53 @@ impl State {
         self.log.clear();
     }
 
-    /// Becomes the network with these edges and rooms.
-    pub(super) fn become_network(&mut self, model: &Model<'_>, active: &[bool], rooms: &[usize]) {
+    /// Moves a sink that was placed to a vertex that is none.
+    pub(super) fn move_sink(&mut self, model: &Model<'_>, from: usize, to: usize) {
+        self.log.push(Deed::Move(from, to));
+        self.shift(model, from, to);
+    }
+
+    fn shift(&mut self, model: &Model<'_>, from: usize, to: usize) {
+        self.sinks[from] = false;
+        self.sinks[to] = true;
+        self.placed.remove(from);
+        self.placed.insert(to);
+        self.idle.remove(from);
+        self.idle.set(to, self.degree[to] == 0);
+        if !model.problem.dead_ends {
+            self.dead_ends.set(from, self.degree[from] == 1);
+            self.dead_ends.remove(to);
+        }
+    }
+
+    /// As an answer.
+    pub(super) fn network(&self) -> Network {
+        let sorted = |subset: &Subset| {
+            let mut items = subset.items().to_vec();
+            items.sort_unstable();
+            items
+        };
+        Network {
+            active: self.active.clone(),
+            rooms: sorted(&self.rooms.placed),
+            sinks: sorted(&self.placed),
+        }
+    }
+
+    /// Becomes a network.
+    pub(super) fn become_network(&mut self, model: &Model<'_>, network: &Network) {
+        let Network {
+            active,
+            rooms,
+            sinks,
+        } = network;
+        // As many sinks are placed as the network has, or it were not valid.
+        let left = self.placed.items().iter().filter(|v| !sinks.contains(v));
+        let new = sinks.iter().filter(|&&v| !self.placed.contains(v));
+        let moves: Vec<(usize, usize)> = left.copied().zip(new.copied()).collect();
+        for (from, to) in moves {
+            self.move_sink(model, from, to);
+        }
         for (e, &on) in active.iter().enumerate() {
             if self.active[e] != on {
                 self.flip(model, e);
@@ -277,6 +364,9 @@ impl State {
         self.pattern_cost = (0..self.unmet.len())
             .filter(|&p| self.unmet[p] == 0)
             .filter_map(|p| model.pattern_costs[p])
+            .sum();
+        self.route_cost = (self.lapsed.items().iter())
+            .filter_map(|&r| model.route_costs[r])
             .sum();
     }
 }

@@ -48,6 +48,13 @@ impl Ways {
                 }
             }
         }
+        for &v in state.placed.items() {
+            self.away[v] = 0.0;
+            if !self.waiting[v] {
+                self.waiting[v] = true;
+                self.queue.push_back(v);
+            }
+        }
         while let Some(v) = self.queue.pop_front() {
             self.waiting[v] = false;
             let gone = self.away[v];
@@ -85,7 +92,7 @@ impl Ways {
 mod tests {
     use super::*;
     use crate::design::{cost, distances, EdgeState, Problem};
-    use crate::solve::search::lists::Dice;
+    use crate::dice::Dice;
 
     /// A ring of twelve with chords, some of it given, one stray given edge.
     fn ring() -> Problem {

@@ -1,22 +1,15 @@
 //! What the search does to a network: each move changes the state by any
 //! number of logged steps, and whoever asked for it takes them back or not.
 
+mod repair;
+mod sinks;
+
 use super::ears::{Finder, Manner};
-use super::lists::Dice;
 use super::model::{Fate, Model};
 use super::score::Fines;
 use super::state::State;
 use super::ways::Ways;
-
-/// Something that is wrong, and where.
-#[derive(Clone, Copy, Debug)]
-enum Fault {
-    DeadEnd(usize),
-    Missing(usize),
-    Cut(usize),
-    Crossed(usize),
-    Shut(usize),
-}
+use crate::dice::Dice;
 
 /// A state with all that its moves need.
 #[derive(Debug)]
@@ -66,6 +59,18 @@ impl<'m, 'p> Walk<'m, 'p> {
                 let count = 2 + self.dice.below(4);
                 self.retile(room, count);
                 self.repair(2);
+                return;
+            }
+        }
+        if self.model.placing.is_some() && self.dice.chance(0.12) {
+            self.move_sink();
+            self.repair(2);
+            return;
+        }
+        if !self.state.lapsed.is_empty() && self.dice.chance(0.08) {
+            if let Some(route) = self.dice.pick(self.state.lapsed.items()) {
+                self.open_route(route);
+                self.repair(3);
                 return;
             }
         }
@@ -139,7 +144,7 @@ impl<'m, 'p> Walk<'m, 'p> {
 
     /// Removes edges from a dead end on to where there is none.
     fn trim(&mut self, mut v: usize) {
-        while self.state.degree[v] == 1 && !self.model.problem.sinks[v] {
+        while self.state.degree[v] == 1 && !self.state.sinks[v] {
             let active = |&&(e, _): &&(usize, usize)| self.state.active[e];
             let Some(&(e, w)) = self.model.around.of(v).iter().find(active) else {
                 return;
@@ -299,7 +304,7 @@ impl<'m, 'p> Walk<'m, 'p> {
     fn ear_through(&mut self, v: usize, manner: &Manner) -> bool {
         const NOWHERE: usize = usize::MAX;
         let mark = self.state.mark();
-        let inside = self.state.is_stop(self.model, v);
+        let inside = self.state.is_stop(v);
         if !self.path_from(v, NOWHERE, manner) {
             return false;
         }
@@ -324,7 +329,7 @@ impl<'m, 'p> Walk<'m, 'p> {
             ends.reverse();
         }
         let [a, b] = ends;
-        let [near, far] = ends.map(|v| self.state.is_stop(self.model, v));
+        let [near, far] = ends.map(|v| self.state.is_stop(v));
         self.add(e);
         let dead_ends = self.model.problem.dead_ends;
         // The first path must not end at the other end, or it were an island.
@@ -336,152 +341,14 @@ impl<'m, 'p> Walk<'m, 'p> {
         self.state.undo(self.model, mark);
         false
     }
-
-    /// Mends faults one by one, as often as told. Says whether it mended any.
-    pub(super) fn repair(&mut self, rounds: usize) -> bool {
-        let mut any = false;
-        for _ in 0..rounds {
-            let Some(fault) = self.fault() else {
-                return self.join_island() || any;
-            };
-            let forced = self.dice.chance(0.2);
-            let breach = if forced {
-                3.0 * self.model.unit
-            } else {
-                f64::INFINITY
-            };
-            let manner = self.manner(breach);
-            let mended = match fault {
-                Fault::DeadEnd(v) => self.path_from(v, usize::MAX, &manner),
-                Fault::Missing(row) => match self.vertex_of(row) {
-                    Some(v) => self.ear_through(v, &manner),
-                    None => false,
-                },
-                Fault::Cut(route) => self.open_route(route),
-                Fault::Crossed(room) => self.free_room(room),
-                Fault::Shut(room) if self.dice.chance(0.4) => {
-                    let count = 2 + self.dice.below(4);
-                    self.retile(room, count)
-                }
-                Fault::Shut(room) => self.open_room(room, &manner),
-            };
-            if mended && forced {
-                self.shove();
-                self.drop_islands();
-            }
-            if !mended && self.dice.chance(0.3) {
-                // What cannot be reached now may be from elsewhere.
-                self.extend();
-            }
-            any |= mended;
-        }
-        any
-    }
-
-    /// A fault to be mended: mostly of the first kind that there is, since what
-    /// is mended last may mend others by the way.
-    fn fault(&mut self) -> Option<Fault> {
-        let (state, dice) = (&self.state, &mut self.dice);
-        let faults = [
-            dice.pick(state.dead_ends.items()).map(Fault::DeadEnd),
-            dice.pick(state.missing.items()).map(Fault::Missing),
-            dice.pick(state.cut.items()).map(Fault::Cut),
-            dice.pick(state.rooms.crossed.items()).map(Fault::Crossed),
-            dice.pick(state.rooms.shut.items()).map(Fault::Shut),
-        ];
-        let kinds = faults.iter().flatten().count();
-        if kinds == 0 {
-            return None;
-        }
-        let which = if dice.chance(0.8) {
-            0
-        } else {
-            dice.below(kinds)
-        };
-        faults.into_iter().flatten().nth(which)
-    }
-
-    /// The best of some vertices that would cover a row.
-    fn vertex_of(&mut self, row: usize) -> Option<usize> {
-        let mut best = None;
-        for _ in 0..3 {
-            let v = self.dice.pick(self.model.rows.of(row))?;
-            let gain = self.state.gain(v);
-            if best.is_none_or(|(_, known)| gain > known) {
-                best = Some((v, gain));
-            }
-        }
-        best.map(|(v, _)| v)
-    }
-
-    /// Makes one of the paths of a route active.
-    fn open_route(&mut self, route: usize) -> bool {
-        let Some(path) = self.dice.pick(self.model.routes.of(route)) else {
-            return false;
-        };
-        for &e in self.model.paths.of(path) {
-            if !self.state.active[e] {
-                self.add(e);
-            }
-        }
-        self.shove();
-        true
-    }
-
-    /// Gives a room a corridor on its border.
-    fn open_room(&mut self, room: usize, manner: &Manner) -> bool {
-        let Some(rooms) = &self.model.rooms else {
-            return false;
-        };
-        match self.dice.pick(rooms.borders.of(room)) {
-            Some(e) if self.state.rooms.inside[e] == 0 => self.ear_over(e, manner),
-            _ => false,
-        }
-    }
-
-    /// Takes the corridors out of a room: by other rooms in its place, or else
-    /// by removing them.
-    fn free_room(&mut self, room: usize) -> bool {
-        for _ in 0..2 {
-            let count = 2 + self.dice.below(4);
-            if self.retile(room, count) {
-                return true;
-            }
-        }
-        let Some(rooms) = &self.model.rooms else {
-            return false;
-        };
-        for &e in rooms.inners.of(room) {
-            if self.state.active[e] {
-                self.remove(e, !self.model.problem.dead_ends);
-            }
-        }
-        self.drop_islands();
-        true
-    }
-
-    /// Joins an island to the rest, if there is one.
-    fn join_island(&mut self) -> bool {
-        if self.ways.measure(self.model, &self.state).islands == 0 {
-            return false;
-        }
-        let lost: Vec<usize> = (0..self.model.problem.vertices)
-            .filter(|&v| self.state.degree[v] > 0 && self.ways.away[v].is_infinite())
-            .collect();
-        let mut manner = self.manner(f64::INFINITY);
-        manner.reached = true;
-        match self.dice.pick(&lost) {
-            Some(v) => self.path_from(v, usize::MAX, &manner),
-            None => false,
-        }
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::design::{
-        cost, verify, EdgeState, Network, Pattern, PatternKind, Placement, Problem, Rooms,
+        cost_of, verify, EdgeState, Pattern, PatternKind, PlacedSinks, Placement, Problem, Rooms,
+        Route,
     };
     use crate::solve::search::score::Score;
 
@@ -561,7 +428,13 @@ mod tests {
             sinks,
             coverage: vec![vec![12], vec![3, 4, 9], vec![20, 21]],
             required_vertices: vec![22],
-            routes: vec![vec![vec![at(2, 3), at(3, 8)], vec![at(2, 7), at(7, 8)]]],
+            routes: vec![
+                vec![vec![at(2, 3), at(3, 8)], vec![at(2, 7), at(7, 8)]].into(),
+                Route {
+                    cost: Some(1.5),
+                    ..vec![vec![at(6, 11), at(11, 16)], vec![at(13, 14)]].into()
+                },
+            ],
             patterns,
             rooms: rooms.then(|| Rooms {
                 placements,
@@ -578,25 +451,28 @@ mod tests {
     /// taken back leaves no trace.
     #[test]
     fn counters_agree_with_the_checker_after_every_move() {
-        for (rooms, dead_ends) in [(false, false), (false, true), (true, false), (true, true)] {
+        for k in 0..8 {
+            let [rooms, dead_ends, placed] = [1, 2, 4].map(|bit| k & bit != 0);
             let mut problem = mixed(rooms);
             problem.dead_ends = dead_ends;
+            if placed {
+                problem.sinks[24] = false;
+                problem.placed = Some(PlacedSinks {
+                    candidates: vec![4, 9, 12, 20, 23, 24],
+                    count: 2,
+                });
+            }
             problem.check().expect("fits together");
             let model = Model::new(&problem).expect("no contradiction");
             let mut walk = Walk::new(&model, 7);
             let mut valid = 0;
             for k in 0..3000 {
-                let before = (walk.state.active.clone(), walk.state.rooms.owner.clone());
+                let before = (walk.state.network(), walk.state.rooms.owner.clone());
                 let score = Score::of(&model, &walk.state, &mut walk.ways);
                 let mark = walk.state.mark();
                 walk.step();
                 let after = Score::of(&model, &walk.state, &mut walk.ways);
-                let mut placed = walk.state.rooms.placed.items().to_vec();
-                placed.sort_unstable();
-                let network = Network {
-                    active: walk.state.active.clone(),
-                    rooms: placed,
-                };
+                let network = walk.state.network();
                 let found = verify(&problem, &network);
                 assert_eq!(
                     after.is_valid(),
@@ -606,7 +482,7 @@ mod tests {
                 );
                 if after.is_valid() {
                     valid += 1;
-                    let cost = cost(&problem, &network.active).objective;
+                    let cost = cost_of(&problem, &network).objective;
                     // A few thousand additions of numbers below 100.
                     assert!((cost - after.objective).abs() < 1e-9);
                 }
@@ -616,7 +492,7 @@ mod tests {
                     assert_eq!(again.faults, score.faults);
                     assert_eq!(
                         before,
-                        (walk.state.active.clone(), walk.state.rooms.owner.clone())
+                        (walk.state.network(), walk.state.rooms.owner.clone())
                     );
                 } else {
                     walk.state.settle();

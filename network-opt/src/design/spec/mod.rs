@@ -1,10 +1,18 @@
 //! What a network is for, in the designer's words, and what that means for
 //! each edge of a mesh.
 
-use crate::error::DesignError;
+mod patterns;
+mod places;
+mod states;
+mod traffic;
 
-use super::problem::{EdgeState, Pattern, PatternKind, Problem};
+pub use places::{Among, Place};
+pub use traffic::{Across, Inside, Pairs, Parts, Traffic};
+
+use super::placed::PlacedSinks;
+use super::problem::{EdgeState, Problem};
 use super::tessellation::Tessellation;
+use crate::error::DesignError;
 
 /// How a local feature is treated.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -56,6 +64,15 @@ pub enum Sinks {
     Streets,
     /// These vertices.
     At(Vec<usize>),
+    /// Somewhere: the program chooses where they serve best, each on a street,
+    /// as in the paper's figure 8e.
+    Placed {
+        /// How many.
+        count: usize,
+        /// Where; by default on the boundary.
+        #[cfg_attr(feature = "serde", serde(default))]
+        among: Among,
+    },
 }
 
 /// What becomes of the edges on the boundary.
@@ -106,6 +123,10 @@ pub struct Specification {
     ///
     /// Default value: 1e-4: short networks, and of those the quick ones.
     pub travel: f64,
+    /// (iii) What traffic the network is for.
+    ///
+    /// Default value: to sinks alone.
+    pub traffic: Traffic,
     /// (iv) Where traffic goes.
     ///
     /// Default value: the boundary.
@@ -153,6 +174,7 @@ impl Default for Specification {
             coverage: Coverage::Hops(2),
             length: 1.0,
             travel: 1e-4,
+            traffic: Traffic::default(),
             sinks: Sinks::Boundary,
             rim: Rim::Given,
             dead_ends: Feature::Forbidden,
@@ -179,14 +201,15 @@ impl Specification {
     ///
     /// [`DesignError::BadProblem`] for a vertex that is not in the mesh, a
     /// route that does not follow edges or runs into an obstacle, a number out
-    /// of its range, or no sink.
+    /// of its range, no sink, or places that have to be joined and cannot be;
+    /// [`DesignError::BadOption`] for parts that are not.
     pub fn on(&self, mesh: &Tessellation) -> Result<Problem, DesignError> {
         let bad = |what: String| Err(DesignError::BadProblem { what });
         let (vertices, edges) = (mesh.points().len(), mesh.edges().len());
         let named = self.obstacles.iter().chain(self.routes.iter().flatten());
         let sinks = match &self.sinks {
             Sinks::At(list) => list.as_slice(),
-            Sinks::Boundary | Sinks::Streets => &[],
+            Sinks::Boundary | Sinks::Streets | Sinks::Placed { .. } => &[],
         };
         if let Some(v) = named.chain(sinks).find(|&&v| v >= vertices) {
             return bad(format!("vertex {v} is named, of {vertices}"));
@@ -208,9 +231,27 @@ impl Specification {
                 let streets = streets.filter(|(_, &state)| state == EdgeState::Given);
                 streets.for_each(|(ends, _)| ends.iter().for_each(|&v| is_sink[v] = true));
             }
+            Sinks::Placed { .. } => {}
+        }
+        let placed = match &self.sinks {
+            Sinks::Placed { count, among } => {
+                let open = |&(e, _): &(usize, usize)| states[e] != EdgeState::Closed;
+                let may = |v: usize| mesh.around(v).iter().any(open);
+                Some(PlacedSinks {
+                    candidates: among.candidates(mesh, &may)?,
+                    count: *count,
+                })
+            }
+            _ => None,
+        };
+        let to_sinks = self.traffic.to_sinks;
+        if !(to_sinks >= 0.0 && to_sinks.is_finite()) {
+            return bad(format!(
+                "the weight of traffic to sinks is {to_sinks}; give 0 or more"
+            ));
         }
         let mean = (0..edges).map(|e| mesh.length(e)).sum::<f64>() / edges.max(1) as f64;
-        let problem = Problem {
+        let mut problem = Problem {
             vertices,
             ends: mesh.edges().to_vec(),
             lengths: (0..edges).map(|e| mesh.length(e) / mean).collect(),
@@ -219,76 +260,15 @@ impl Specification {
             dead_ends: self.dead_ends != Feature::Forbidden,
             states,
             sinks: is_sink,
+            placed,
             length_weight: self.length,
-            travel_weight: self.travel,
+            travel_weight: self.travel * to_sinks,
             ..Problem::default()
         };
         problem.check()?;
+        problem.routes = self.spans(mesh, &problem)?;
+        problem.check()?;
         Ok(problem)
-    }
-
-    fn states(&self, mesh: &Tessellation, rim: &[bool]) -> Result<Vec<EdgeState>, DesignError> {
-        let bad = |what: String| Err(DesignError::BadProblem { what });
-        let on_rim = match self.rim {
-            Rim::Given => EdgeState::Given,
-            Rim::Open => EdgeState::Open,
-            Rim::Closed => EdgeState::Closed,
-        };
-        let mut states: Vec<EdgeState> = rim
-            .iter()
-            .map(|&rim| if rim { on_rim } else { EdgeState::Open })
-            .collect();
-        self.given
-            .iter()
-            .for_each(|&e| states[e] = EdgeState::Given);
-        let close = |states: &mut Vec<EdgeState>, e: usize| {
-            if states[e] == EdgeState::Open {
-                states[e] = EdgeState::Closed;
-            }
-        };
-        if self.too_close == Feature::Forbidden {
-            for [a, b] in mesh.opposite_edges() {
-                for (given, other) in [(a, b), (b, a)] {
-                    if states[given] == EdgeState::Given {
-                        close(&mut states, other);
-                    }
-                }
-            }
-        }
-        for &v in &self.obstacles {
-            for &(e, _) in mesh.around(v) {
-                if states[e] == EdgeState::Given {
-                    return bad(format!(
-                        "vertex {v} is an obstacle, but a street that exists touches it"
-                    ));
-                }
-                close(&mut states, e);
-            }
-        }
-        for (r, route) in self.routes.iter().enumerate() {
-            for pair in route.windows(2) {
-                let Some(e) = mesh.edge_between(pair[0], pair[1]) else {
-                    return bad(format!(
-                        "route {r} jumps from vertex {} to {}, which no edge joins",
-                        pair[0], pair[1]
-                    ));
-                };
-                if pair.iter().any(|v| self.obstacles.contains(v)) {
-                    return bad(format!("route {r} runs into the obstacle at {}", pair[1]));
-                }
-                if states[e] != EdgeState::Given {
-                    states[e] = EdgeState::Required;
-                }
-            }
-            if self.through {
-                for &v in route.get(1..route.len().saturating_sub(1)).unwrap_or(&[]) {
-                    mesh.around(v)
-                        .iter()
-                        .for_each(|&(e, _)| close(&mut states, e));
-                }
-            }
-        }
-        Ok(states)
     }
 
     /// The balls of the coverage constraint (equation 6).
@@ -308,67 +288,12 @@ impl Specification {
         let all = (0..mesh.points().len()).filter(|v| !self.obstacles.contains(v));
         Ok(all.map(of).collect())
     }
-
-    fn patterns(&self, mesh: &Tessellation, states: &[EdgeState]) -> Vec<Pattern> {
-        let mut patterns = Vec::new();
-        let mut add = |kind, active: Vec<usize>, inactive: Vec<usize>, feature: Feature| {
-            // What a closed edge is part of cannot occur.
-            let closed = |&e: &usize| states[e] == EdgeState::Closed;
-            let given = |&e: &usize| states[e] == EdgeState::Given;
-            if active.iter().any(closed) || inactive.iter().any(given) || active.iter().all(given) {
-                return;
-            }
-            if let Some(cost) = feature.cost() {
-                patterns.push(Pattern {
-                    kind,
-                    active,
-                    inactive,
-                    cost,
-                });
-            }
-        };
-        for pair in mesh.opposite_edges() {
-            add(PatternKind::TooClose, pair.to_vec(), vec![], self.too_close);
-        }
-        for path in mesh.zig_zags() {
-            add(PatternKind::ZigZag, path.to_vec(), vec![], self.zig_zags);
-        }
-        for v in 0..mesh.points().len() {
-            let around: Vec<usize> = mesh.around(v).iter().map(|&(e, _)| e).collect();
-            let others = |e: usize| {
-                around
-                    .iter()
-                    .copied()
-                    .filter(move |&o| o != e)
-                    .collect::<Vec<_>>()
-            };
-            if around.len() == 4 {
-                for &e in &around {
-                    add(PatternKind::TJunction, others(e), vec![e], self.t_junctions);
-                }
-            }
-            // Three of them at once: all that more than two comes to.
-            for (i, &a) in around.iter().enumerate() {
-                for (j, &b) in around.iter().enumerate().skip(i + 1) {
-                    for &c in &around[j + 1..] {
-                        add(PatternKind::Branch, vec![a, b, c], vec![], self.branches);
-                    }
-                }
-            }
-            if let Feature::Weighted(_) = self.dead_ends {
-                for &e in &around {
-                    add(PatternKind::DeadEnd, vec![e], others(e), self.dead_ends);
-                }
-            }
-        }
-        patterns
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::{verify, Network, Violation};
+    use crate::design::{verify, Network, PatternKind, Violation};
 
     /// The paper's figure 2: 312 edges of which 48 are the boundary's, 48 more
     /// are parallel to one, and 192 pairs are too close.
@@ -416,7 +341,7 @@ mod tests {
                 .iter()
                 .map(|&s| s == EdgeState::Required)
                 .collect(),
-            rooms: vec![],
+            ..Network::default()
         };
         assert!(verify(&problem, &network)
             .iter()
