@@ -200,6 +200,7 @@ impl Recipe {
             rooms,
             length_weight: [1.0, 5.0, 1.0][usize::from(self.weights.0)],
             travel_weight: [0.0, 1.0, 0.001][usize::from(self.weights.1)],
+            ..Problem::default()
         }
     }
 }
@@ -282,6 +283,7 @@ fn all_valid(problem: &Problem) -> Vec<Network> {
             let network = Network {
                 active: active.clone(),
                 rooms: rooms.clone(),
+                ..Network::default()
             };
             if verify(problem, &network).is_empty() {
                 found.push(network);

@@ -93,6 +93,7 @@ fn streets(columns: usize, rows: usize) -> impl Strategy<Value = Problem> {
                     rooms: None,
                     length_weight: weights.0,
                     travel_weight: weights.1,
+                    ..Problem::default()
                 }
             },
         )
@@ -199,6 +200,7 @@ fn all_valid(problem: &Problem) -> Vec<(Network, f64)> {
             let network = Network {
                 active: active.clone(),
                 rooms: rooms.clone(),
+                ..Network::default()
             };
             if verify(problem, &network).is_empty() {
                 let cost = cost(problem, &active).objective;

@@ -15,8 +15,11 @@ mod problem;
 mod spec;
 mod tessellation;
 mod verify;
+mod ways;
 
 pub use problem::{EdgeState, Network, Pattern, PatternKind, Placement, Problem, Rooms};
 pub use spec::{Coverage, Feature, Rim, Sinks, Specification};
 pub use tessellation::Tessellation;
-pub use verify::{cost, distances, verify, Cost, Violation};
+pub use verify::{cost, verify, Cost, Violation};
+pub use ways::{distances, distances_from, Streets, Way};
+pub(crate) use ways::{mean_way, ways_to, Heading};

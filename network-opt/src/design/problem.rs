@@ -1,5 +1,6 @@
 //! What is to be solved: a specification spelled out on one mesh.
 
+use super::ways::Way;
 use crate::error::DesignError;
 
 /// What is known of an edge beforehand.
@@ -100,8 +101,18 @@ pub struct Problem {
     /// The two ends of each edge.
     pub ends: Vec<[usize; 2]>,
     /// Delta, the length of each edge: what it costs, and what travel over it
-    /// costs. Positive.
+    /// costs unless [`Problem::travel_costs`] says otherwise. Positive.
     pub lengths: Vec<f64>,
+    /// What travel over each edge costs: its time, say, in the unit of lengths
+    /// at the speed of new streets, so that faster streets attract. Positive;
+    /// empty if it is the length.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub travel_costs: Vec<f64>,
+    /// Which way traffic may run over each edge, given ones too; empty if both
+    /// ways everywhere. From every active vertex a sink must be within reach
+    /// along streets in their direction, and it from a sink.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub ways: Vec<Way>,
     /// What is known of each edge.
     pub states: Vec<EdgeState>,
     /// Whether each vertex is a sink: where traffic goes.
@@ -184,6 +195,7 @@ impl Problem {
                 self.lengths[e]
             ));
         }
+        self.check_ways()?;
         for (name, weight) in [
             ("length", self.length_weight),
             ("travel", self.travel_weight),
@@ -240,4 +252,12 @@ pub struct Network {
     pub active: Vec<bool>,
     /// Positions of the placed rooms, ascending.
     pub rooms: Vec<usize>,
+    /// Which way traffic runs over each edge. Empty if the problem leaves no
+    /// direction open; else with [`Way::Forward`] or [`Way::Backward`] for each
+    /// active edge of which it does, and what the problem says for all others.
+    #[cfg_attr(
+        feature = "serde",
+        serde(default, skip_serializing_if = "Vec::is_empty")
+    )]
+    pub ways: Vec<Way>,
 }

@@ -416,7 +416,7 @@ mod tests {
                 .iter()
                 .map(|&s| s == EdgeState::Required)
                 .collect(),
-            rooms: vec![],
+            ..Network::default()
         };
         assert!(verify(&problem, &network)
             .iter()

@@ -1,6 +1,6 @@
 //! A program in the making: what all families of constraints share.
 
-use crate::design::{distances, Network, Problem};
+use crate::design::{distances, Network, Problem, Streets};
 use crate::mip::Program;
 
 use super::prepare::{prepare, Fate};
@@ -110,6 +110,8 @@ pub(super) struct Known<'p> {
     pub(super) problem: &'p Problem,
     pub(super) active: &'p [bool],
     pub(super) rooms: &'p [usize],
+    /// The active edges with their directions.
+    pub(super) streets: Streets<'p>,
     pub(super) degree: Vec<usize>,
     /// The way of each vertex to a sink.
     pub(super) away: Vec<f64>,
@@ -122,7 +124,7 @@ pub(super) struct Known<'p> {
 impl<'p> Known<'p> {
     pub(super) fn new(problem: &'p Problem, network: &'p Network) -> Self {
         let active = network.active.as_slice();
-        let away = distances(problem, active);
+        let away = distances(problem, network);
         let mut degree = vec![0; problem.vertices];
         let mut next = vec![None; problem.vertices];
         for (e, &[a, b]) in problem.ends.iter().enumerate() {
@@ -134,7 +136,7 @@ impl<'p> Known<'p> {
             for (v, w) in [(a, b), (b, a)] {
                 // Lengths are positive, so the next vertex is nearer: no cycles.
                 // The way was computed as this very sum.
-                if away[v] == away[w] + problem.lengths[e] && next[v].is_none() {
+                if away[v] == away[w] + problem.travel_cost(e) && next[v].is_none() {
                     next[v] = Some((e, w));
                 }
             }
@@ -147,6 +149,7 @@ impl<'p> Known<'p> {
             problem,
             active,
             rooms: &network.rooms,
+            streets: network.into(),
             degree,
             away,
             next,

@@ -84,7 +84,7 @@ impl<'p, 'w> Record<'p, 'w> {
         if network.active.len() != self.problem.edges() {
             return false;
         }
-        let found = cost(self.problem, &network.active);
+        let found = cost(self.problem, &network);
         let better =
             (self.best.as_ref()).is_none_or(|(_, known)| found.objective < known.objective - 1e-9);
         if !better || !verify(self.problem, &network).is_empty() {

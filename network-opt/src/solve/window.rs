@@ -271,7 +271,7 @@ mod tests {
         let problem = ladder(8);
         let start = Network {
             active: vec![true; problem.edges()],
-            rooms: vec![],
+            ..Network::default()
         };
         let windows = Windows {
             size: 8,

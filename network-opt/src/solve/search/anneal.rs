@@ -31,8 +31,7 @@ impl<'m, 'p> Anneal<'m, 'p> {
     pub(super) fn new(model: &'m Model<'p>, start: Option<&Network>, seed: u64) -> Self {
         let mut walk = Walk::new(model, seed);
         if let Some(start) = start {
-            walk.state
-                .become_network(model, &start.active, &start.rooms);
+            walk.state.become_network(model, start);
         }
         let at = Score::of(model, &walk.state, &mut walk.ways);
         let mut anneal = Self {
@@ -102,8 +101,7 @@ impl<'m, 'p> Anneal<'m, 'p> {
     fn restart(&mut self) {
         if let Some(best) = &self.best {
             let walk = &mut self.walk;
-            walk.state
-                .become_network(walk.model, &best.network.active, &best.network.rooms);
+            walk.state.become_network(walk.model, &best.network);
             self.at = Score::of(walk.model, &walk.state, &mut walk.ways);
         }
     }
@@ -114,13 +112,14 @@ impl<'m, 'p> Anneal<'m, 'p> {
         if !self.at.is_valid() || self.at.objective >= least - 1e-9 * least.abs().min(1e9) {
             return false;
         }
-        let state = &self.walk.state;
+        let (state, model) = (&self.walk.state, self.walk.model);
         let mut rooms = state.rooms.placed.items().to_vec();
         rooms.sort_unstable();
         self.best = Some(Best {
             network: Network {
                 active: state.active.clone(),
                 rooms,
+                ways: state.decided_ways(model),
             },
             objective: self.at.objective,
         });

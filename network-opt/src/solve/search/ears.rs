@@ -5,6 +5,8 @@ use std::collections::BinaryHeap;
 
 use super::model::{Fate, Model};
 use super::state::State;
+use super::turns::passes;
+use crate::design::Heading;
 
 /// How a path is to be found.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +25,8 @@ pub(super) struct Manner {
     pub(super) opening: f64,
     /// Whether the path may only end where there is a way to a sink.
     pub(super) reached: bool,
+    /// Which way traffic is to run over the path; `None` if that is no matter.
+    pub(super) heading: Option<Heading>,
     /// How much the ways at its end count.
     pub(super) pull: f64,
 }
@@ -101,6 +105,9 @@ impl Finder {
                 if state.active[e] || model.fates[e] == Fate::Off || w == from || w == besides {
                     continue;
                 }
+                if !passes(model, e, w, manner.heading) {
+                    continue;
+                }
                 // Every step costs something.
                 if self.round[w] == now && self.cost[w] <= gone {
                     continue;
@@ -109,7 +116,7 @@ impl Finder {
                 if stop && manner.reached && away[w].is_infinite() {
                     continue;
                 }
-                let mut step = model.price(e, model.least[v].min(model.least[w]));
+                let mut step = model.price(e, model.floor[e]);
                 step += 1e-3 * model.unit;
                 if manner.noise > 0.0 {
                     step *= 1.0 + manner.noise * scatter(e as u64 ^ manner.salt);
@@ -223,6 +230,7 @@ mod tests {
         reward: 0.0,
         opening: 0.0,
         reached: false,
+        heading: None,
         pull: 0.0,
     };
 

@@ -26,7 +26,7 @@ pub(super) struct Walk<'m, 'p> {
     pub(super) ways: Ways,
     pub(super) dice: Dice,
     pub(super) fines: Fines,
-    finder: Finder,
+    pub(super) finder: Finder,
     /// The move in which each edge was added, so that it is not shoved away in it.
     added: Vec<u64>,
     pub(super) moves: u64,
@@ -59,6 +59,10 @@ impl<'m, 'p> Walk<'m, 'p> {
         let draw = self.dice.unit();
         if !self.state.rooms.bare.is_empty() {
             self.tile_bare();
+            return;
+        }
+        if !self.state.turnable.is_empty() && self.dice.chance(0.15) {
+            self.turn();
             return;
         }
         if let Some(room) = self.dice.pick(self.state.rooms.placed.items()) {
@@ -104,7 +108,7 @@ impl<'m, 'p> Walk<'m, 'p> {
         }
     }
 
-    fn manner(&mut self, breach: f64) -> Manner {
+    pub(super) fn manner(&mut self, breach: f64) -> Manner {
         let noise = [0.0, 0.5, 1.0, 3.0][self.dice.below(4)];
         Manner {
             noise,
@@ -114,11 +118,12 @@ impl<'m, 'p> Walk<'m, 'p> {
             reward: self.fines.rate(0) * self.dice.unit(),
             opening: self.fines.rate(5) * self.dice.unit(),
             reached: false,
+            heading: None,
             pull: 3.0 * self.dice.unit(),
         }
     }
 
-    fn add(&mut self, e: usize) {
+    pub(super) fn add(&mut self, e: usize) {
         self.added[e] = self.moves;
         self.state.flip(self.model, e);
     }
@@ -160,7 +165,7 @@ impl<'m, 'p> Walk<'m, 'p> {
         }
         let ends = &self.model.problem.ends;
         let lost: Vec<usize> = (self.state.removable.items().iter())
-            .filter(|&&e| self.ways.away[ends[e][0]].is_infinite())
+            .filter(|&&e| self.ways.loses(self.model, &self.state, e))
             .copied()
             .collect();
         for e in lost {
@@ -215,6 +220,7 @@ impl<'m, 'p> Walk<'m, 'p> {
             return;
         };
         let edges = self.model.cycles.of(cycle);
+        self.point_cycle(edges);
         for &e in edges {
             if self.state.active[e] {
                 self.state.flip(self.model, e);
@@ -283,7 +289,10 @@ impl<'m, 'p> Walk<'m, 'p> {
     }
 
     /// Adds a path from a vertex to the network, over edges that are inactive.
-    fn path_from(&mut self, v: usize, besides: usize, manner: &Manner) -> bool {
+    pub(super) fn path_from(&mut self, v: usize, besides: usize, manner: &Manner) -> bool {
+        if self.model.turns.is_some() {
+            return self.path_one_way(v, besides, manner);
+        }
         let (model, away) = (self.model, &self.ways.away);
         let found = self
             .finder
@@ -298,6 +307,9 @@ impl<'m, 'p> Walk<'m, 'p> {
     /// if it is part of it, or if dead ends are allowed.
     fn ear_through(&mut self, v: usize, manner: &Manner) -> bool {
         const NOWHERE: usize = usize::MAX;
+        if self.model.turns.is_some() {
+            return self.loop_through(v, manner);
+        }
         let mark = self.state.mark();
         let inside = self.state.is_stop(self.model, v);
         if !self.path_from(v, NOWHERE, manner) {
@@ -326,6 +338,13 @@ impl<'m, 'p> Walk<'m, 'p> {
         let [a, b] = ends;
         let [near, far] = ends.map(|v| self.state.is_stop(self.model, v));
         self.add(e);
+        if self.model.turns.is_some() {
+            let done = self.join_ends(e, ends, [near, far], manner);
+            if !done {
+                self.state.undo(self.model, mark);
+            }
+            return done;
+        }
         let dead_ends = self.model.problem.dead_ends;
         // The first path must not end at the other end, or it were an island.
         let first = near || far && dead_ends || self.path_from(a, b, manner);
@@ -465,6 +484,9 @@ impl<'m, 'p> Walk<'m, 'p> {
         if self.ways.measure(self.model, &self.state).islands == 0 {
             return false;
         }
+        if self.model.turns.is_some() {
+            return self.join_lost();
+        }
         let lost: Vec<usize> = (0..self.model.problem.vertices)
             .filter(|&v| self.state.degree[v] > 0 && self.ways.away[v].is_infinite())
             .collect();
@@ -596,6 +618,7 @@ mod tests {
                 let network = Network {
                     active: walk.state.active.clone(),
                     rooms: placed,
+                    ways: walk.state.decided_ways(&model),
                 };
                 let found = verify(&problem, &network);
                 assert_eq!(
@@ -606,7 +629,7 @@ mod tests {
                 );
                 if after.is_valid() {
                     valid += 1;
-                    let cost = cost(&problem, &network.active).objective;
+                    let cost = cost(&problem, &network).objective;
                     // A few thousand additions of numbers below 100.
                     assert!((cost - after.objective).abs() < 1e-9);
                 }

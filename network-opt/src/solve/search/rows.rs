@@ -478,7 +478,7 @@ mod tests {
                 let active: Vec<bool> = (0..problem.edges()).map(|e| set >> e & 1 == 1).collect();
                 let network = Network {
                     active,
-                    rooms: vec![],
+                    ..Network::default()
                 };
                 if !verify(&problem, &network).is_empty() {
                     continue;

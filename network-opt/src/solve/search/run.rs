@@ -201,7 +201,7 @@ impl Lead<'_> {
             "counters of the search do not agree with the checker"
         );
         if valid {
-            let cost = cost(self.problem, &best.network.active);
+            let cost = cost(self.problem, &best.network);
             let known = self.bests[k].as_ref();
             if known.is_none_or(|(_, known)| cost.objective < known.objective) {
                 self.bests[k] = Some((best.network.clone(), cost));

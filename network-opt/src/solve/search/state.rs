@@ -2,11 +2,13 @@
 
 use super::lists::Subset;
 use super::model::{Fate, Model};
+use crate::design::{Network, Way};
 
 /// What was done, to be undone.
 #[derive(Clone, Copy, Debug)]
 enum Deed {
     Flip(usize),
+    Turn(usize),
     Place(usize),
     Clear(usize),
 }
@@ -21,6 +23,10 @@ pub(super) struct State {
     pub(super) removable: Subset,
     /// Active edges that were not given.
     pub(super) charged: Subset,
+    /// Whether each edge whose direction is open runs from its second end to its
+    /// first, and which of these are active.
+    pub(super) backward: Vec<bool>,
+    pub(super) turnable: Subset,
     /// Active vertices of each row, and rows with none.
     covers: Vec<usize>,
     pub(super) missing: Subset,
@@ -76,6 +82,8 @@ impl State {
             degree: vec![0; vertices],
             removable: Subset::new(edges),
             charged: Subset::new(edges),
+            backward: vec![false; edges],
+            turnable: Subset::new(edges),
             covers: vec![0; model.rows.len()],
             missing: all(model.rows.len()),
             gains: (0..vertices).map(|v| model.rows_at.of(v).len()).collect(),
@@ -134,6 +142,9 @@ impl State {
         if model.fates[e] == Fate::Open {
             self.removable.set(e, on);
         }
+        if model.problem.way(e) == Way::Either {
+            self.turnable.set(e, on);
+        }
         if !model.given[e] {
             self.charged.set(e, on);
             let length = model.problem.lengths[e];
@@ -176,6 +187,12 @@ impl State {
         if let Some(rooms) = &model.rooms {
             self.rooms.corridor(rooms, e, on);
         }
+    }
+
+    /// Turns a one-way edge whose direction is open, active or not.
+    pub(super) fn turn(&mut self, e: usize) {
+        self.log.push(Deed::Turn(e));
+        self.backward[e] = !self.backward[e];
     }
 
     /// A vertex has become active, or inactive.
@@ -239,6 +256,7 @@ impl State {
         while self.log.len() > mark {
             match self.log.pop() {
                 Some(Deed::Flip(e)) => self.apply(model, e),
+                Some(Deed::Turn(e)) => self.backward[e] = !self.backward[e],
                 Some(Deed::Place(room)) => self.set_room(model, room, false),
                 Some(Deed::Clear(room)) => self.set_room(model, room, true),
                 None => break,
@@ -251,8 +269,14 @@ impl State {
         self.log.clear();
     }
 
-    /// Becomes the network with these edges and rooms.
-    pub(super) fn become_network(&mut self, model: &Model<'_>, active: &[bool], rooms: &[usize]) {
+    /// Becomes a network.
+    pub(super) fn become_network(&mut self, model: &Model<'_>, network: &Network) {
+        let (active, rooms) = (&network.active, &network.rooms);
+        for (e, &way) in network.ways.iter().enumerate() {
+            if way == Way::Forward || way == Way::Backward {
+                self.backward[e] = way == Way::Backward;
+            }
+        }
         for (e, &on) in active.iter().enumerate() {
             if self.active[e] != on {
                 self.flip(model, e);
