@@ -11,12 +11,14 @@
 //! - [`Network`]: an answer; [`verify`] says what is wrong with it and [`cost`]
 //!   what it costs, both without knowledge of any solver.
 
+mod one_way;
 mod problem;
 mod spec;
 mod tessellation;
 mod verify;
 mod ways;
 
+pub use one_way::OneWay;
 pub use problem::{EdgeState, Network, Pattern, PatternKind, Placement, Problem, Rooms};
 pub use spec::{Coverage, Feature, Rim, Sinks, Specification};
 pub use tessellation::Tessellation;
