@@ -27,6 +27,9 @@ pub(super) struct Manner {
     pub(super) reached: bool,
     /// Which way traffic is to run over the path; `None` if that is no matter.
     pub(super) heading: Option<Heading>,
+    /// Whether it may pass what is active, at no cost, until it is where there is
+    /// a way.
+    pub(super) through: bool,
     /// How much the ways at its end count.
     pub(super) pull: f64,
 }
@@ -85,7 +88,8 @@ impl Finder {
             if gone > self.cost[v] {
                 continue;
             }
-            if v != from && state.is_stop(model, v) {
+            let passed = manner.through && away[v].is_infinite();
+            if v != from && state.is_stop(model, v) && !passed {
                 let mut at = v;
                 while self.by[at] != NONE {
                     let e = self.by[at];
@@ -102,10 +106,15 @@ impl Finder {
                 self.by[other(problem.ends[last], v)]
             };
             for &(e, w) in model.around.of(v) {
-                if state.active[e] || model.fates[e] == Fate::Off || w == from || w == besides {
+                let active = state.active[e];
+                if active && !manner.through
+                    || model.fates[e] == Fate::Off
+                    || w == from
+                    || w == besides
+                {
                     continue;
                 }
-                if !passes(model, e, w, manner.heading) {
+                if !passes(model, state, e, w, manner.heading) {
                     continue;
                 }
                 // Every step costs something.
@@ -113,7 +122,7 @@ impl Finder {
                     continue;
                 }
                 let stop = state.is_stop(model, w);
-                if stop && manner.reached && away[w].is_infinite() {
+                if stop && manner.reached && !manner.through && away[w].is_infinite() {
                     continue;
                 }
                 let mut step = model.price(e, model.floor[e]);
@@ -142,10 +151,10 @@ impl Finder {
                     step -= manner.opening
                         * opens.filter(|&&p| state.rooms.shut.contains(p)).count() as f64;
                 }
-                if step.is_infinite() {
+                if step.is_infinite() && !active {
                     continue;
                 }
-                let there = gone + step.max(floor);
+                let there = gone + if active { 0.0 } else { step.max(floor) };
                 if self.round[w] != now || there < self.cost[w] {
                     self.round[w] = now;
                     self.cost[w] = there;
@@ -231,6 +240,7 @@ mod tests {
         opening: 0.0,
         reached: false,
         heading: None,
+        through: false,
         pull: 0.0,
     };
 

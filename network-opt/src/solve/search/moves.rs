@@ -119,6 +119,7 @@ impl<'m, 'p> Walk<'m, 'p> {
             opening: self.fines.rate(5) * self.dice.unit(),
             reached: false,
             heading: None,
+            through: false,
             pull: 3.0 * self.dice.unit(),
         }
     }
@@ -360,6 +361,9 @@ impl<'m, 'p> Walk<'m, 'p> {
     pub(super) fn repair(&mut self, rounds: usize) -> bool {
         let mut any = false;
         for _ in 0..rounds {
+            if self.model.turns.is_some() && self.dice.chance(0.3) {
+                any |= self.join_island();
+            }
             let Some(fault) = self.fault() else {
                 return self.join_island() || any;
             };

@@ -79,10 +79,21 @@ pub(super) fn floors(problem: &Problem, least: &[f64], turns: Option<&Turns>) ->
 }
 
 /// Whether a path may lead on over an edge to `w`, with traffic in its heading.
-pub(super) fn passes(model: &Model<'_>, e: usize, w: usize, heading: Option<Heading>) -> bool {
+pub(super) fn passes(
+    model: &Model<'_>,
+    state: &State,
+    e: usize,
+    w: usize,
+    heading: Option<Heading>,
+) -> bool {
     heading.is_none_or(|heading| {
         let near = usize::from(model.problem.ends[e][0] == w);
-        (model.problem.way(e)).may_run_from(heading.tail(near))
+        let tail = heading.tail(near);
+        if state.active[e] {
+            state.way(model, e).runs_from(tail)
+        } else {
+            model.problem.way(e).may_run_from(tail)
+        }
     })
 }
 
@@ -236,8 +247,10 @@ impl Walk<'_, '_> {
         let mut at = v;
         for k in 0..self.finder.path.len() {
             let e = self.finder.path[k];
-            self.point(e, at, heading);
-            self.add(e);
+            if !self.state.active[e] {
+                self.point(e, at, heading);
+                self.add(e);
+            }
             at = other(self.model.problem.ends[e], at);
         }
         found.is_some()
@@ -337,7 +350,7 @@ impl Walk<'_, '_> {
         let mut any = false;
         for (heading, _) in Heading::BOTH.into_iter().zip(lacking).filter(|&(_, l)| l) {
             let mut manner = self.manner(f64::INFINITY);
-            manner.reached = true;
+            manner.through = true;
             manner.heading = Some(heading);
             any |= self.path_one_way(v, usize::MAX, &manner);
         }
