@@ -10,8 +10,8 @@ use std::fmt::Write as _;
 use std::time::Duration;
 
 use network_opt::design::{
-    distances, distances_from, verify, Network, OneWay, Problem, Sinks, Specification, Streets,
-    Tessellation, Way,
+    distances, distances_from, verify, Coverage, Network, OneWay, Problem, Sinks, Specification,
+    Streets, Tessellation, Way,
 };
 use network_opt::geo_types::{Coord, Polygon};
 use network_opt::quad::{quads, QuadOptions};
@@ -90,7 +90,7 @@ fn draw(svg: &mut String, mesh: &Tessellation, problem: &Problem, network: &Netw
         };
         let _ = writeln!(
             svg,
-            "<path d=\"M-9 -9L11 0L-9 9Z\" fill=\"#212529\" stroke=\"#fff\" stroke-width=\"2.5\" \
+            "<path d=\"M-8 -8L10 0L-8 8Z\" fill=\"#212529\" stroke=\"#fff\" stroke-width=\"2.5\" \
              transform=\"translate({:.1} {:.1}) rotate({:.1})\"/>",
             (x + u) / 2.0,
             (y + v) / 2.0,
@@ -130,7 +130,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mesh = quads(
         &site(),
         &QuadOptions {
-            edge_length: 52.0,
+            edge_length: 50.0,
             ..QuadOptions::default()
         },
     )?;
@@ -144,7 +144,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         .flatten()
         .collect();
     let both = Specification {
-        travel: 0.05,
+        coverage: Coverage::Hops(1),
+        travel: 0.1,
         sinks: Sinks::At(exits),
         ..Specification::default()
     };
@@ -158,14 +159,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {HIGH}\" width=\"1140\" fill=\"none\" \
-         stroke-linecap=\"round\" stroke-linejoin=\"round\" font-family=\"sans-serif\" font-size=\"26\">\n\
+         stroke-linecap=\"round\" stroke-linejoin=\"round\" font-family=\"sans-serif\" font-size=\"24\">\n\
          <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
         3.0 * WIDE
     );
     let cases = [
         ("two-way", both, false),
         ("new streets one-way", new, false),
-        ("all one-way, the ring twice as fast", all, true),
+        ("all one-way, fast ring", all, true),
     ];
     for (k, (name, specification, fast)) in cases.iter().enumerate() {
         let mut problem = specification.on(&mesh)?;

@@ -541,6 +541,48 @@ fn a_block_is_driven_around() {
     assert_eq!((found.network, found.ended), (None, Ended::Infeasible));
 }
 
+/// Between two vertices: one street has to be two-way, two may be one-way, and
+/// nothing is wrong with no edge at all.
+#[test]
+fn the_least_problems_are_solved() {
+    let street = |count: usize| Problem {
+        vertices: 2,
+        ends: vec![[0, 1]; count],
+        lengths: vec![1.0; count],
+        states: vec![EdgeState::Open; count],
+        sinks: vec![true, false],
+        required_vertices: vec![1],
+        dead_ends: true,
+        ways: vec![Way::Either; count],
+        length_weight: 1.0,
+        travel_weight: 1.0,
+        ..Problem::default()
+    };
+    let limits = Limits {
+        deadline: None,
+        ..Limits::default()
+    };
+    let search = Search { moves: Some(2000) };
+    for solver in [&Exact::new(Microlp) as &dyn NetworkSolver, &search] {
+        let solve =
+            |problem: &Problem| solver.solve(problem, None, &limits, &mut |_| true).unwrap();
+        assert_eq!(solve(&street(0)).network, None);
+        assert_eq!(solve(&street(1)).network, None);
+        let two = solve(&street(2));
+        // One leads out from a way of 1, the other comes back to one.
+        assert_eq!((two.cost.length, two.cost.travel), (2.0, 0.5 + 0.5));
+        let ways = two.network.unwrap().ways;
+        assert_eq!(ways[0], ways[1].reversed());
+        let empty = Problem {
+            required_vertices: vec![],
+            ..street(2)
+        };
+        let found = solve(&empty);
+        assert_eq!((found.cost.objective, found.ended), (0.0, Ended::Proven));
+        assert_eq!(found.network.unwrap().ways, [Way::Either; 2]);
+    }
+}
+
 fn problem_ways(around: Way) -> Vec<Way> {
     [vec![Way::Both], vec![around; 4]].concat()
 }

@@ -255,9 +255,6 @@ pub struct Network {
     /// Which way traffic runs over each edge. Empty if the problem leaves no
     /// direction open; else with [`Way::Forward`] or [`Way::Backward`] for each
     /// active edge of which it does, and what the problem says for all others.
-    #[cfg_attr(
-        feature = "serde",
-        serde(default, skip_serializing_if = "Vec::is_empty")
-    )]
+    #[cfg_attr(feature = "serde", serde(default))]
     pub ways: Vec<Way>,
 }

@@ -22,6 +22,39 @@ use super::problem::{Network, Problem};
 use crate::error::DesignError;
 
 /// Which way traffic may run over an edge.
+///
+/// # Examples
+///
+/// A block at the end of a street: one way around it, and it does not matter
+/// which.
+///
+/// ```
+/// use network_opt::design::{Problem, Way};
+/// use network_opt::mip::Microlp;
+/// use network_opt::solve::{Ended, Exact, Limits, NetworkSolver};
+///
+/// let problem = Problem {
+///     vertices: 4,
+///     ends: vec![[0, 1], [1, 2], [2, 3], [1, 3]],
+///     lengths: vec![1.0; 4],
+///     states: vec![Default::default(); 4],
+///     sinks: vec![true, false, false, false],
+///     required_vertices: vec![2],
+///     ways: vec![Way::Both, Way::Either, Way::Either, Way::Either],
+///     length_weight: 1.0,
+///     travel_weight: 1.0,
+///     ..Problem::default()
+/// };
+/// let found = Exact::new(Microlp).solve(&problem, None, &Limits::default(), &mut |_| true)?;
+/// assert_eq!(found.ended, Ended::Proven);
+/// // From the heads of the three it is 3, 2 and 1 to the sink, and from there 1,
+/// // 2 and 3 to their tails.
+/// assert_eq!((found.cost.length, found.cost.travel), (4.0, 6.0));
+/// let ways = found.network.unwrap().ways;
+/// assert_eq!(ways[1], ways[2]);
+/// assert_eq!(ways[3], ways[1].reversed());
+/// # Ok::<(), network_opt::DesignError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]

@@ -15,17 +15,18 @@
 //! needs that an active vertex is joined to a sink by active edges and, for
 //! (6b), that it has two of them, whatever their directions. Room cuts and the
 //! rows of [`Search`](crate::solve::Search)'s bound argue the same way. Besides,
-//! for a set B of coverage without a sink, with delta+ the arcs that leave B
-//! and delta- those that enter it,
+//! for a set U without a sink that holds a set B of coverage, with delta+ the
+//! arcs that leave U and delta- those that enter it,
 //!
-//! a(delta+(B)) >= 1,  a(delta-(B)) >= 1.   (12)
+//! a(delta+(U)) >= 1,  a(delta-(U)) >= 1.   (12)
 //!
 //! *Proof.* Some v of B is active. A way from it, along active edges in their
-//! direction, ends at a sink, which is outside B; the first of its arcs with its
-//! head outside has its tail in B. The way to v from a sink enters B likewise. []
+//! direction, ends at a sink, which is outside U; the first of its arcs with its
+//! head outside has its tail in U. The way to v from a sink enters U likewise. []
 //!
-//! With only two-way streets both are (6a); their sum over a B whose boundary is
-//! all of one-way streets is x(delta(B)) >= 2, with dead ends allowed or not.
+//! With only two-way streets both are (6a); their sum over a U whose boundary is
+//! all of one-way streets is x(delta(U)) >= 2, with dead ends allowed or not. U
+//! is B, and B with its neighbours, ring after ring up to the nearest sink.
 
 use std::collections::BTreeSet;
 
@@ -83,21 +84,48 @@ pub(super) fn add(draft: &mut Draft<'_>) -> Arcs {
             draft.row(f64::NEG_INFINITY, 0.0, [(y, 1.0)]);
         }
     }
+    let mut cuts = BTreeSet::new();
     for set in least_sets(draft) {
-        if set.iter().any(|&v| problem.sinks[v]) {
-            continue;
-        }
-        let ball: BTreeSet<usize> = set.iter().copied().collect();
-        for out in [true, false] {
-            let mut terms = Vec::new();
-            for &v in &set {
-                let leaving = draft.around[v].iter().filter(|(_, w)| !ball.contains(w));
-                terms.extend(leaving.map(|&(e, _)| (arcs.at(problem, e, v, out), 1.0)));
+        let mut ball: BTreeSet<usize> = set.into_iter().collect();
+        for _ in 0..RINGS {
+            if ball.iter().any(|&v| problem.sinks[v]) {
+                break;
             }
+            let ring = leaving(draft, &ball);
+            cuts.insert(ball.iter().copied().collect::<Vec<usize>>());
+            // Over an edge that is active anyway a way leads out.
+            if ring.is_empty() || ring.iter().any(|&(e, _)| draft.x[e] == Term::On) {
+                break;
+            }
+            let far = ring.iter().flat_map(|&(e, _)| problem.ends[e]);
+            ball.extend(far.collect::<Vec<usize>>());
+        }
+    }
+    for set in cuts {
+        let ball: BTreeSet<usize> = set.into_iter().collect();
+        for out in [true, false] {
+            let ring = leaving(draft, &ball).into_iter();
+            let terms: Vec<_> = ring
+                .map(|(e, v)| (arcs.at(problem, e, v, out), 1.0))
+                .collect();
             draft.row(1.0, f64::INFINITY, terms);
         }
     }
     arcs
+}
+
+/// Rings of neighbours that are put around a set at most.
+const RINGS: usize = 24;
+
+/// The edges that may be active with one end among some vertices, with that end.
+fn leaving(draft: &Draft<'_>, ball: &BTreeSet<usize>) -> Vec<(usize, usize)> {
+    let from = ball.iter().flat_map(|&v| {
+        let around = draft.around[v].iter();
+        around.map(move |&(e, w)| (e, v, w))
+    });
+    from.filter(|&(e, _, w)| draft.possible(e) && !ball.contains(&w))
+        .map(|(e, v, _)| (e, v))
+        .collect()
 }
 
 impl Arcs {
