@@ -3,10 +3,19 @@
 //!
 //! Peng et al. 2016, section 5.1: the network of each level is found on the
 //! mesh of the one before it, refined once.
+//!
+//! Each level has a class with the speed that one drives at on its streets.
+//! Travel of a level counts the length of a way over its own streets, and over
+//! streets of another speed the length that its own would have for the same
+//! time: so the faster streets of the level above attract. With one speed for
+//! all that is the length.
 
 use std::time::Duration;
 
-use crate::design::{distances, Network, Problem, Specification, Tessellation};
+use crate::design::{
+    distances, distances_from, mean_way, Network, Problem, Specification, Streets, Tessellation,
+    Way,
+};
 use crate::error::DesignError;
 use crate::snake::{smooth_snakes, snakes, Snake, SnakeOptions};
 use crate::solve::{Limits, NetworkSolver, Outcome, Progress, Watch};
@@ -21,6 +30,8 @@ pub struct Level {
     pub problem: Problem,
     /// What was found.
     pub outcome: Outcome,
+    /// Class, width and speed of the streets that it adds.
+    pub class: StreetClass,
 }
 
 impl Level {
@@ -39,17 +50,77 @@ impl Level {
 pub struct Street {
     /// The level that it belongs to, from 0.
     pub level: usize,
-    /// Where it runs.
+    /// Where it runs; a one-way street in its direction.
     pub line: LineString<f64>,
     /// For each piece between two points of the line the way from there to a
-    /// sink of its level, in metres along edges of the mesh.
+    /// sink of its level, in metres along edges of the mesh; over streets of
+    /// another speed in metres of its own that take as long. With one-way streets
+    /// the mean of that and of the way from a sink.
     pub away: Vec<f64>,
+    /// Whether traffic runs over it one way only.
+    pub one_way: bool,
+}
+
+/// What the streets of a level are.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct StreetClass {
+    /// What they are called.
+    pub name: String,
+    /// How wide they are, metres.
+    pub width: f64,
+    /// How fast one drives there, km/h.
+    pub speed: f64,
+}
+
+impl Default for StreetClass {
+    /// Collectors, 12 m wide.
+    fn default() -> Self {
+        Self::new("collector", 12.0)
+    }
+}
+
+impl StreetClass {
+    /// A class with the [usual speed](usual_speed) of its name.
+    #[must_use]
+    pub fn new(name: &str, width: f64) -> Self {
+        Self {
+            name: name.to_owned(),
+            width,
+            speed: usual_speed(name),
+        }
+    }
+}
+
+/// The speed of streets by what they are called, km/h: the paper's 40, 30, 20
+/// and 20 miles an hour for "major", "collector", "local" and "cul-de-sac"
+/// (section 5.1); 30 for what is called otherwise.
+#[must_use]
+pub fn usual_speed(name: &str) -> f64 {
+    const MILE: f64 = 1.609_344;
+    MILE * match name {
+        "major" => 40.0,
+        "local" | "cul-de-sac" => 20.0,
+        _ => 30.0,
+    }
+}
+
+/// What is asked of one level.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct LevelPlan {
+    /// What the streets are that it adds.
+    pub class: StreetClass,
+    /// What they are for.
+    pub specification: Specification,
 }
 
 /// Finds the networks of all levels, each specification on the mesh of its
 /// level: the first on `mesh`, the next on [`Tessellation::refined`] of it. The
-/// streets of the levels before are given, and obstacles grow with the mesh.
-/// The time is divided among the levels.
+/// streets of the levels before are given, in their directions, and obstacles
+/// grow with the mesh. The time is divided among the levels.
+///
+/// All streets are as fast as each other; see [`design_plans`] for classes.
 ///
 /// Ends early after a level without a network; look at the last outcome.
 ///
@@ -86,7 +157,63 @@ pub fn design_levels(
     limits: &Limits,
     watch: &mut Watch<'_>,
 ) -> Result<Vec<Level>, DesignError> {
-    let share = u32::try_from(specifications.len().max(1)).unwrap_or(u32::MAX);
+    let plan = |specification: &Specification| LevelPlan {
+        specification: specification.clone(),
+        ..LevelPlan::default()
+    };
+    let plans: Vec<LevelPlan> = specifications.iter().map(plan).collect();
+    design_plans(mesh, &plans, None, solver, limits, watch)
+}
+
+/// [`design_levels`] with a class for each level. `existing` says how fast one
+/// drives on streets that exist from the start, km/h: the boundary, if that is
+/// given, and what specifications give; `None` as on those of the first level.
+///
+/// # Errors
+///
+/// Those of [`design_levels`]; [`DesignError::BadOption`] for a speed or width
+/// that is not positive.
+///
+/// # Examples
+///
+/// Local streets between collectors on which one drives half as fast again.
+///
+/// ```
+/// use network_opt::design::{OneWay, Sinks, Specification, Tessellation};
+/// use network_opt::geo_types::coord;
+/// use network_opt::levels::{design_plans, LevelPlan, StreetClass};
+/// use network_opt::solve::{Limits, Search};
+///
+/// let points = (0..49).map(|k| coord! { x: 90.0 * f64::from(k % 7), y: 90.0 * f64::from(k / 7) });
+/// let faces = (0..36).map(|k| k / 6 * 7 + k % 6).map(|a| vec![a, a + 1, a + 8, a + 7]);
+/// let mesh = Tessellation::new(points.collect(), faces.collect())?;
+/// let plans = [
+///     LevelPlan { class: StreetClass::new("collector", 14.0), ..LevelPlan::default() },
+///     LevelPlan {
+///         class: StreetClass::new("local", 6.0),
+///         specification: Specification { one_way: OneWay::New, travel: 0.2, ..Specification::default() },
+///     },
+/// ];
+/// let limits = Limits { deadline: None, ..Limits::default() };
+/// let search = Search { moves: Some(3000) };
+/// let levels = design_plans(mesh, &plans, None, &search, &limits, &mut |_| true)?;
+/// let local = &levels[1].problem;
+/// let given = (0..local.edges()).find(|&e| local.is_given(e)).unwrap();
+/// assert!((local.travel_costs[given] / local.lengths[given] - 2.0 / 3.0).abs() < 1e-12);
+/// # Ok::<(), network_opt::DesignError>(())
+/// ```
+pub fn design_plans(
+    mesh: Tessellation,
+    plans: &[LevelPlan],
+    existing: Option<f64>,
+    solver: &dyn NetworkSolver,
+    limits: &Limits,
+    watch: &mut Watch<'_>,
+) -> Result<Vec<Level>, DesignError> {
+    let existing = existing.or_else(|| plans.first().map(|plan| plan.class.speed));
+    let existing = existing.unwrap_or_default();
+    check(plans, existing)?;
+    let share = u32::try_from(plans.len().max(1)).unwrap_or(u32::MAX);
     let limits = Limits {
         deadline: limits.deadline.map(|deadline| deadline / share),
         ..limits.clone()
@@ -95,13 +222,16 @@ pub fn design_levels(
     let mut mesh = mesh;
     let mut obstacles: Vec<usize> = Vec::new();
     let mut spent = Duration::ZERO;
-    for specification in specifications {
-        let mut specification = specification.clone();
+    // What streets there are on the mesh, by its edges.
+    let mut known: Vec<Option<Known>> = Vec::new();
+    for plan in plans {
+        let mut specification = plan.specification.clone();
         if let Some(before) = levels.last() {
             let Some(network) = &before.outcome.network else {
                 break;
             };
             specification.given.extend(halves(&network.active));
+            known = found(before, &known, existing);
             obstacles = finer(&mesh, &obstacles);
             mesh = mesh.refined();
         }
@@ -109,7 +239,10 @@ pub fn design_levels(
         obstacles.sort_unstable();
         obstacles.dedup();
         specification.obstacles.clone_from(&obstacles);
-        let problem = specification.on(&mesh)?;
+        let mut problem = specification.on(&mesh)?;
+        known.resize(problem.edges(), None);
+        travel_by_time(&mut problem, &known, plan.class.speed, existing);
+        keep_directions(&mut problem, &known);
         let mut told = |progress: &Progress<'_>| {
             watch(&Progress {
                 elapsed: progress.elapsed + spent,
@@ -122,9 +255,88 @@ pub fn design_levels(
             mesh: mesh.clone(),
             problem,
             outcome,
+            class: plan.class.clone(),
         });
     }
     Ok(levels)
+}
+
+fn check(plans: &[LevelPlan], existing: f64) -> Result<(), DesignError> {
+    let positive = |value: f64| value > 0.0 && value.is_finite();
+    for LevelPlan { class, .. } in plans {
+        for (name, value, unit) in [
+            ("speed", class.speed, "km/h"),
+            ("width", class.width, "metres"),
+        ] {
+            if !positive(value) {
+                let what = format!("the {name} of {:?} is {value}; give {unit}", class.name);
+                return Err(DesignError::BadOption { what });
+            }
+        }
+    }
+    if !plans.is_empty() && !positive(existing) {
+        let what = format!("the speed of existing streets is {existing}; give km/h");
+        return Err(DesignError::BadOption { what });
+    }
+    Ok(())
+}
+
+/// What is known of a street of a level above.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Known {
+    speed: f64,
+    way: Way,
+}
+
+/// The streets of a level and of those above it, by the edges of the refined
+/// mesh, as far as these are halves of edges.
+fn found(level: &Level, known: &[Option<Known>], existing: f64) -> Vec<Option<Known>> {
+    let Some(network) = &level.outcome.network else {
+        return Vec::new();
+    };
+    let streets = Streets::from(network);
+    let street = |e: usize| {
+        network.active[e].then(|| Known {
+            speed: match known[e] {
+                Some(above) => above.speed,
+                None if level.problem.is_given(e) => existing,
+                None => level.class.speed,
+            },
+            // The halves of an edge run as it does: a to m, m to b.
+            way: streets.way(&level.problem, e),
+        })
+    };
+    (0..level.problem.edges())
+        .flat_map(|e| [street(e); 2])
+        .collect()
+}
+
+/// Makes travel cost its time, in the length of a street of this level that
+/// takes as long.
+fn travel_by_time(problem: &mut Problem, known: &[Option<Known>], own: f64, existing: f64) {
+    let speed = |e: usize| match known[e] {
+        Some(above) => above.speed,
+        None if problem.is_given(e) => existing,
+        None => own,
+    };
+    let speeds: Vec<f64> = (0..problem.edges()).map(speed).collect();
+    if speeds.iter().any(|&speed| speed != own) {
+        let lengths = problem.lengths.iter().zip(&speeds);
+        problem.travel_costs = lengths.map(|(l, speed)| l * own / speed).collect();
+    }
+}
+
+/// Gives streets of the levels above the directions that they have.
+fn keep_directions(problem: &mut Problem, known: &[Option<Known>]) {
+    let one_way = known.iter().flatten().any(|k| k.way != Way::Both);
+    if one_way && problem.ways.is_empty() {
+        problem.ways = vec![Way::Both; problem.edges()];
+    }
+    for (way, known) in problem.ways.iter_mut().zip(known) {
+        if let Some(known) = known {
+            *way = known.way;
+        }
+    }
 }
 
 /// The active edges of a mesh, as edges of the refined one.
@@ -150,9 +362,10 @@ fn finer(mesh: &Tessellation, obstacles: &[usize]) -> Vec<usize> {
 }
 
 /// The streets of all levels, smoothed together on the finest mesh, so that
-/// they meet where they met; no street runs on into one of another level.
-/// Sinks that lie alone are pinned, for a street is to end there; where a whole
-/// street is sink its ends may slide.
+/// they meet where they met; no street runs on into one of another level, nor
+/// one-way streets into others or against each other. Sinks that lie alone are
+/// pinned, for a street is to end there; where a whole street is sink its ends
+/// may slide.
 ///
 /// # Errors
 ///
@@ -167,16 +380,19 @@ pub fn streets(levels: &[Level], options: &SnakeOptions) -> Result<Vec<Street>, 
     };
     let mut all: Vec<(usize, Snake)> = Vec::new();
     let mut away = vec![0.0; last.mesh.edges().len()];
+    let mut ways = vec![Way::Both; last.mesh.edges().len()];
     for (index, level) in found.iter().enumerate() {
         let mut own = level.own();
         let mut way = nearer(level);
+        let mut runs = directions(level);
         for _ in index + 1..found.len() {
-            (own, way) = refined(&own, &way);
+            (own, way, runs) = (halved(&own), halved(&way), halved(&runs));
         }
         own.resize(last.mesh.edges().len(), false);
         for (e, &on) in own.iter().enumerate() {
             if on {
                 away[e] = way[e];
+                ways[e] = runs[e];
             }
         }
         let snakes = snakes(&last.mesh, &own, options.through_deg.to_radians());
@@ -187,7 +403,7 @@ pub fn streets(levels: &[Level], options: &SnakeOptions) -> Result<Vec<Street>, 
         .map(|e| found[0].problem.is_given(e))
         .collect();
     for _ in 1..found.len() {
-        given = given.iter().flat_map(|&on| [on, on]).collect();
+        given = halved(&given);
     }
     given.resize(last.mesh.edges().len(), false);
     let (of, snakes): (Vec<usize>, Vec<Snake>) = all.into_iter().unzip();
@@ -198,49 +414,98 @@ pub fn streets(levels: &[Level], options: &SnakeOptions) -> Result<Vec<Street>, 
     let smooth = smooth_snakes(&last.mesh, snakes, &given, &options)?;
     let streets = smooth.streets.into_iter().zip(of);
     Ok(streets
-        .map(|((snake, line), level)| Street {
-            level,
-            away: snake
-                .edges
-                .iter()
-                .flat_map(|&e| std::iter::repeat_n(away[e], options.pieces))
-                .collect(),
-            line,
+        .flat_map(|((snake, line), level)| {
+            let runs: Vec<Way> = (snake.edges.iter().zip(&snake.vertices))
+                .map(|(&e, &v)| {
+                    if last.mesh.edges()[e][0] == v {
+                        ways[e]
+                    } else {
+                        ways[e].reversed()
+                    }
+                })
+                .collect();
+            let away: Vec<f64> = snake.edges.iter().map(|&e| away[e]).collect();
+            cut(&line, &runs, &away, options.pieces, level)
         })
         .collect())
 }
 
-/// Sinks of a level without a sink beside them; vertices keep their numbers on
-/// finer meshes.
-fn lone_sinks(level: &Level) -> impl Iterator<Item = usize> + '_ {
-    let sinks = &level.problem.sinks;
-    let lone = move |&v: &usize| !level.mesh.around(v).iter().any(|&(_, w)| sinks[w]);
-    (0..sinks.len()).filter(|&v| sinks[v]).filter(lone)
+/// Sinks of a level without a sink beside them, those placed included; vertices
+/// keep their numbers on finer meshes.
+fn lone_sinks(level: &Level) -> Vec<usize> {
+    let mut sinks = level.problem.sinks.clone();
+    let placed = level.outcome.network.iter().flat_map(|n| &n.sinks);
+    placed.for_each(|&v| sinks[v] = true);
+    let lone = |&v: &usize| !level.mesh.around(v).iter().any(|&(_, w)| sinks[w]);
+    (0..sinks.len())
+        .filter(|&v| sinks[v])
+        .filter(lone)
+        .collect()
 }
 
-/// Lists by edge on the refined mesh; its edges within faces are not in them.
-fn refined(own: &[bool], way: &[f64]) -> (Vec<bool>, Vec<f64>) {
-    (
-        own.iter().flat_map(|&on| [on, on]).collect(),
-        way.iter().flat_map(|&metres| [metres, metres]).collect(),
-    )
+/// A snake's line as streets, cut where traffic begins to run another way: `runs`
+/// and `away` are of its edges, of so many pieces each.
+fn cut(
+    line: &LineString<f64>,
+    runs: &[Way],
+    away: &[f64],
+    pieces: usize,
+    level: usize,
+) -> Vec<Street> {
+    let mut streets = Vec::new();
+    let mut from = 0;
+    while from < runs.len() {
+        let way = runs[from];
+        let same = runs[from..].iter().take_while(|&&w| w == way).count();
+        let to = from + same;
+        let mut points = line.0[from * pieces..=to * pieces].to_vec();
+        let mut away: Vec<f64> = away[from..to]
+            .iter()
+            .flat_map(|&metres| std::iter::repeat_n(metres, pieces))
+            .collect();
+        if way == Way::Backward {
+            points.reverse();
+            away.reverse();
+        }
+        streets.push(Street {
+            level,
+            line: points.into(),
+            away,
+            one_way: way != Way::Both,
+        });
+        from = to;
+    }
+    streets
 }
 
-/// The way from the nearer end of each edge to a sink of its level, metres.
-fn nearer(level: &Level) -> Vec<f64> {
+/// A list by edge, for the halves of edges on the refined mesh; its edges within
+/// faces are not in it.
+fn halved<T: Copy>(list: &[T]) -> Vec<T> {
+    list.iter().flat_map(|&value| [value, value]).collect()
+}
+
+/// Which way traffic runs over each edge.
+fn directions(level: &Level) -> Vec<Way> {
     let empty = Network::default();
-    let network = level.outcome.network.as_ref().unwrap_or(&empty);
+    let streets = Streets::from(level.outcome.network.as_ref().unwrap_or(&empty));
+    (0..level.problem.edges())
+        .map(|e| streets.way(&level.problem, e))
+        .collect()
+}
+
+/// The travel of each edge of a level, metres: its way to a sink of the level,
+/// with one-way streets the mean of that and the way from one.
+fn nearer(level: &Level) -> Vec<f64> {
+    let Some(network) = &level.outcome.network else {
+        return vec![f64::INFINITY; level.problem.edges()];
+    };
     let unit = level.metres();
     let settled = level.problem.settled(&network.sinks);
-    let away = distances(&settled, &network.active);
-    let ends = level.problem.ends.iter();
-    ends.map(|ends| {
-        unit * ends
-            .map(|v| away[v])
-            .into_iter()
-            .fold(f64::INFINITY, f64::min)
-    })
-    .collect()
+    let to = distances(&settled, network);
+    let from = distances_from(&settled, network);
+    let ends = level.problem.ends.iter().zip(directions(level));
+    ends.map(|(&ends, way)| unit * mean_way(ends, way, &to, &from))
+        .collect()
 }
 
 impl Level {
@@ -257,7 +522,7 @@ impl Level {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::{verify, EdgeState, Sinks};
+    use crate::design::{verify, EdgeState, OneWay, Sinks};
     use crate::solve::Search;
 
     fn two_levels(obstacles: Vec<usize>) -> Vec<Level> {
@@ -339,5 +604,145 @@ mod tests {
         for &(e, _) in fine.mesh.around(centre) {
             assert_eq!(fine.problem.states[e], EdgeState::Closed);
         }
+    }
+
+    fn plans(one_way: [OneWay; 2]) -> Vec<LevelPlan> {
+        let plan = |(name, one_way)| LevelPlan {
+            class: StreetClass::new(name, 10.0),
+            specification: Specification {
+                one_way,
+                travel: 0.2,
+                ..Specification::default()
+            },
+        };
+        ["collector", "local"]
+            .into_iter()
+            .zip(one_way)
+            .map(plan)
+            .collect()
+    }
+
+    fn designed(plans: &[LevelPlan], existing: Option<f64>) -> Vec<Level> {
+        let limits = Limits {
+            deadline: None,
+            ..Limits::default()
+        };
+        let search = Search { moves: Some(3000) };
+        let mesh = Tessellation::grid(6, 6);
+        design_plans(mesh, plans, existing, &search, &limits, &mut |_| true).expect("fits")
+    }
+
+    /// Streets of the level above are faster, the boundary fastest.
+    #[test]
+    fn travel_counts_time() {
+        let levels = designed(&plans([OneWay::None; 2]), Some(usual_speed("major")));
+        for (level, own) in levels.iter().zip([30.0, 20.0]) {
+            let problem = &level.problem;
+            for e in 0..problem.edges() {
+                let rim = problem.ends[e].iter().all(|&v| {
+                    let point = level.mesh.points()[v];
+                    [point.x, point.y].iter().any(|&c| c == 0.0 || c == 6.0)
+                });
+                let mph = match problem.is_given(e) {
+                    true if rim => 40.0,
+                    true => 30.0,
+                    false => own,
+                };
+                let share = problem.travel_cost(e) / problem.lengths[e];
+                assert!(
+                    (share - own / mph).abs() < 1e-12,
+                    "{share} for {own} / {mph}"
+                );
+            }
+        }
+        // One speed for all is none, and what design_levels does.
+        let mut same = plans([OneWay::None; 2]);
+        same[1].class.speed = same[0].class.speed;
+        let levels = designed(&same, None);
+        assert!(levels
+            .iter()
+            .all(|level| level.problem.travel_costs.is_empty()));
+        let specifications: Vec<Specification> =
+            same.into_iter().map(|plan| plan.specification).collect();
+        let limits = Limits {
+            deadline: None,
+            ..Limits::default()
+        };
+        let search = Search { moves: Some(3000) };
+        let mesh = Tessellation::grid(6, 6);
+        let plain = design_levels(mesh, &specifications, &search, &limits, &mut |_| true);
+        for (a, b) in plain.expect("fits").iter().zip(&levels) {
+            assert_eq!(
+                (&a.problem, &a.outcome.network),
+                (&b.problem, &b.outcome.network)
+            );
+        }
+    }
+
+    /// The next level has to do with the directions that there are, and streets
+    /// are drawn in theirs.
+    #[test]
+    fn directions_go_down() {
+        let levels = designed(&plans([OneWay::All, OneWay::None]), None);
+        assert_eq!(levels.len(), 2);
+        for level in &levels {
+            let network = level.outcome.network.as_ref().expect("found");
+            assert_eq!(verify(&level.problem, network), []);
+        }
+        let above = levels[0].outcome.network.as_ref().expect("found");
+        for (e, &on) in above.active.iter().enumerate() {
+            for half in [2 * e, 2 * e + 1].into_iter().filter(|_| on) {
+                assert_eq!(levels[1].problem.way(half), above.ways[e]);
+                assert_ne!(above.ways[e], Way::Both);
+            }
+        }
+        let options = SnakeOptions {
+            // No snake moves, so that its points are the mesh's.
+            closeness: 1e9,
+            ..SnakeOptions::default()
+        };
+        let found = streets(&levels, &options).expect("smooth");
+        assert!(found
+            .iter()
+            .all(|street| street.one_way == (street.level == 0)));
+        let mesh = &levels[1].mesh;
+        for street in &found {
+            assert_eq!(street.away.len() + 1, street.line.0.len());
+            assert!(street.away.iter().all(|metres| metres.is_finite()));
+            let at = |p: geo_types::Coord<f64>| {
+                let near = |q: &geo_types::Coord<f64>| (q.x - p.x).hypot(q.y - p.y) < 1e-3;
+                mesh.points().iter().position(near)
+            };
+            let stops: Vec<usize> = street.line.0.iter().filter_map(|&p| at(p)).collect();
+            for pair in stops.windows(2).filter(|_| street.one_way) {
+                let e = mesh.edge_between(pair[0], pair[1]).expect("an edge");
+                let end = usize::from(mesh.edges()[e][0] != pair[0]);
+                assert!(levels[1].problem.way(e).runs_from(end));
+            }
+        }
+    }
+
+    #[test]
+    fn speeds_have_to_be_positive() {
+        let mut bad = plans([OneWay::None; 2]);
+        bad[1].class.speed = 0.0;
+        let run = |plans: &[LevelPlan], existing| {
+            let mesh = Tessellation::grid(2, 2);
+            let search = Search { moves: Some(1) };
+            design_plans(
+                mesh,
+                plans,
+                existing,
+                &search,
+                &Limits::default(),
+                &mut |_| true,
+            )
+        };
+        assert!(run(&bad, None).is_err());
+        bad[1].class.speed = 30.0;
+        assert!(run(&bad, Some(f64::NAN)).is_err());
+        bad[0].class.width = -1.0;
+        assert!(run(&bad, None).is_err());
+        assert_eq!(run(&[], None).expect("nothing to do"), vec![]);
     }
 }

@@ -179,6 +179,7 @@ impl Recipe {
             rooms: None,
             length_weight: [1.0, 5.0, 1.0][usize::from(self.weights.0)],
             travel_weight: [0.0, 1.0, 0.001][usize::from(self.weights.1)],
+            ..Problem::default()
         }
     }
 }

@@ -9,7 +9,9 @@ use std::time::{Duration, Instant};
 
 use geo_types::Polygon;
 use network_opt::design::{verify, Specification};
-use network_opt::levels::{design_levels, streets, Level, Street};
+use network_opt::levels::{
+    design_plans, streets, usual_speed, Level, LevelPlan, Street, StreetClass,
+};
 use network_opt::quad::{quads, QuadOptions};
 use network_opt::snake::SnakeOptions;
 use network_opt::solve::{Ended, Limits, Progress, Search};
@@ -32,6 +34,9 @@ pub struct NetworkSpec {
     /// Length of the edges of the first level's mesh, metres; 0 for a twelfth
     /// of the square root of the largest region's area. Default 0.
     pub edge_length: f64,
+    /// How fast one drives on the streets that exist: the boundary where a level
+    /// gives it. km/h. Default: as on the streets of the first level.
+    pub existing_speed: Option<f64>,
     /// The levels, the widest streets first. Default: collectors alone.
     pub level: Vec<LevelSpec>,
 }
@@ -44,6 +49,11 @@ pub struct LevelSpec {
     pub class: String,
     /// How wide they are, metres. Default 12.
     pub width: f64,
+    /// How fast one drives there, km/h: travel counts time, so that faster
+    /// streets attract. Default: by the class, that of the paper (40, 30, 20 and
+    /// 20 miles an hour for "major", "collector", "local" and "cul-de-sac"; 30 for
+    /// others).
+    pub speed: Option<f64>,
     /// What they are for.
     pub network: Specification,
     /// Where the things are that it is told of.
@@ -54,6 +64,7 @@ impl Default for NetworkSpec {
     fn default() -> Self {
         Self {
             edge_length: 0.0,
+            existing_speed: None,
             level: vec![LevelSpec::default()],
         }
     }
@@ -64,8 +75,28 @@ impl Default for LevelSpec {
         Self {
             class: "collector".to_owned(),
             width: 12.0,
+            speed: None,
             network: Specification::default(),
             places: Places::default(),
+        }
+    }
+}
+
+impl LevelSpec {
+    /// How fast one drives there, km/h.
+    #[must_use]
+    pub fn speed(&self) -> f64 {
+        self.speed.unwrap_or_else(|| usual_speed(&self.class))
+    }
+
+    fn plan(&self) -> LevelPlan {
+        LevelPlan {
+            class: StreetClass {
+                name: self.class.clone(),
+                width: self.width,
+                speed: self.speed(),
+            },
+            specification: self.network.clone(),
         }
     }
 }
@@ -76,7 +107,7 @@ impl NetworkSpec {
     /// # Errors
     ///
     /// An error of input that says where the text is not what it should be; no
-    /// level; a width that is not positive.
+    /// level; a width or speed that is not positive.
     ///
     /// # Examples
     ///
@@ -95,9 +126,11 @@ impl NetworkSpec {
     ///     sinks = "streets"
     ///     dead-ends = { weighted = 3.0 }
     ///     coverage = { hops = 2 }
+    ///     one-way = "new"
     ///     "#,
     /// )?;
     /// assert_eq!(spec.level[1].class, "local");
+    /// assert!((spec.level[1].speed() - 32.19).abs() < 0.01);
     /// # Ok::<(), urban_layout::Error>(())
     /// ```
     pub fn from_toml(text: &str) -> Result<Self> {
@@ -108,11 +141,20 @@ impl NetworkSpec {
                 "the specification has no level; give a [[level]]",
             ));
         }
-        if let Some(level) = spec
-            .level
-            .iter()
-            .find(|l| !(l.width > 0.0 && l.width.is_finite()))
-        {
+        let positive = |value: f64| value > 0.0 && value.is_finite();
+        if let Some(level) = spec.level.iter().find(|l| !positive(l.speed())) {
+            return Err(Error::input(format!(
+                "the speed on streets of the class {:?} is {}; give km/h",
+                level.class,
+                level.speed()
+            )));
+        }
+        if let Some(speed) = spec.existing_speed.filter(|&speed| !positive(speed)) {
+            return Err(Error::input(format!(
+                "existing-speed is {speed}; give km/h"
+            )));
+        }
+        if let Some(level) = spec.level.iter().find(|l| !positive(l.width)) {
             return Err(Error::input(format!(
                 "streets of the class {:?} are {} m wide; give metres",
                 level.class, level.width
@@ -182,22 +224,25 @@ impl NetworkStudy {
                 ..QuadOptions::default()
             };
             let mesh = quads(region, &options).map_err(fault)?;
-            let mut wanted = Vec::new();
+            let mut plans = Vec::new();
             for (k, level) in spec.level.iter().enumerate() {
-                let mut network = level.network.clone();
+                let mut plan = level.plan();
                 if k == 0 {
-                    network.obstacles.extend(places::within(&mesh, &elements));
+                    let obstacles = places::within(&mesh, &elements);
+                    plan.specification.obstacles.extend(obstacles);
                 }
                 if !level.places.is_empty() {
                     let mesh = (0..k).fold(mesh.clone(), |mesh, _| mesh.refined());
                     level
                         .places
-                        .settle(&mut network, &mesh, &regions, number, site)?;
+                        .settle(&mut plan.specification, &mesh, &regions, number, site)?;
                 }
-                wanted.push(network);
+                plans.push(plan);
             }
+            let existing = spec.existing_speed;
+            let search = Search::default();
             let levels =
-                design_levels(mesh, &wanted, &Search::default(), &limits, told).map_err(fault)?;
+                design_plans(mesh, &plans, existing, &search, &limits, told).map_err(fault)?;
             let streets = streets(&levels, &SnakeOptions::default()).map_err(fault)?;
             parts.push(PartNetwork { levels, streets });
         }

@@ -11,6 +11,7 @@
 //! - [`Network`]: an answer; [`verify`] says what is wrong with it and [`cost`]
 //!   what it costs, both without knowledge of any solver.
 
+mod one_way;
 mod partition;
 mod paths;
 mod placed;
@@ -19,7 +20,9 @@ mod route;
 mod spec;
 mod tessellation;
 mod verify;
+mod ways;
 
+pub use one_way::OneWay;
 pub use partition::{check_partition, partition, partition_around};
 pub use paths::{paths_between, PathOptions};
 pub use placed::{cost_of, PlacedSinks};
@@ -30,4 +33,6 @@ pub use spec::{
     Traffic,
 };
 pub use tessellation::Tessellation;
-pub use verify::{cost, distances, verify, Cost, Violation};
+pub use verify::{cost, verify, Cost, Violation};
+pub use ways::{distances, distances_from, Streets, Way};
+pub(crate) use ways::{mean_way, ways_to, Heading};

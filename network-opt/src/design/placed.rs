@@ -125,7 +125,7 @@ impl Problem {
 /// If the network has not one entry an edge.
 #[must_use]
 pub fn cost_of(problem: &Problem, network: &Network) -> Cost {
-    cost(&problem.settled(&network.sinks), &network.active)
+    cost(&problem.settled(&network.sinks), network)
 }
 
 /// What is wrong with the sinks that a network chooses, and with the network

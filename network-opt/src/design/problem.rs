@@ -2,6 +2,7 @@
 
 use super::placed::PlacedSinks;
 use super::route::Route;
+use super::ways::Way;
 use crate::error::DesignError;
 
 /// What is known of an edge beforehand.
@@ -102,8 +103,18 @@ pub struct Problem {
     /// The two ends of each edge.
     pub ends: Vec<[usize; 2]>,
     /// Delta, the length of each edge: what it costs, and what travel over it
-    /// costs. Positive.
+    /// costs unless [`Problem::travel_costs`] says otherwise. Positive.
     pub lengths: Vec<f64>,
+    /// What travel over each edge costs: its time, say, in the unit of lengths
+    /// at the speed of new streets, so that faster streets attract. Positive;
+    /// empty if it is the length.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub travel_costs: Vec<f64>,
+    /// Which way traffic may run over each edge, given ones too; empty if both
+    /// ways everywhere. From every active vertex a sink must be within reach
+    /// along streets in their direction, and it from a sink.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub ways: Vec<Way>,
     /// What is known of each edge.
     pub states: Vec<EdgeState>,
     /// Whether each vertex is a sink: where traffic goes.
@@ -189,6 +200,7 @@ impl Problem {
                 self.lengths[e]
             ));
         }
+        self.check_ways()?;
         for (name, weight) in [
             ("length", self.length_weight),
             ("travel", self.travel_weight),
@@ -199,6 +211,12 @@ impl Problem {
         }
         if let Some(what) = self.placed.as_ref().and_then(|p| p.fault(&self.sinks)) {
             return bad(what);
+        }
+        if self.placed.is_some() && self.has_one_way() {
+            return bad(
+                "sinks are to be placed where streets are one-way; place them first, on two-way streets"
+                    .to_owned(),
+            );
         }
         if !self.sinks.contains(&true) && self.placed.is_none() {
             return bad("there is no sink, so nothing can be reached".to_owned());
@@ -257,4 +275,9 @@ pub struct Network {
     /// The sinks that were placed, ascending; empty if the problem knows all.
     #[cfg_attr(feature = "serde", serde(default))]
     pub sinks: Vec<usize>,
+    /// Which way traffic runs over each edge. Empty if the problem leaves no
+    /// direction open; else with [`Way::Forward`] or [`Way::Backward`] for each
+    /// active edge of which it does, and what the problem says for all others.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub ways: Vec<Way>,
 }

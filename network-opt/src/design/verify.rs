@@ -1,10 +1,9 @@
 //! Is a network valid, and what does it cost? Knows nothing of solvers.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
 use std::fmt;
 
 use super::problem::{EdgeState, Network, PatternKind, Problem};
+use super::ways::{distances, distances_from, mean_way, ways_to, Heading, Streets, Way};
 
 /// What is wrong with a network.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,6 +87,39 @@ pub enum Violation {
         /// Its number.
         room: usize,
     },
+    /// An edge that is to be one-way has no direction.
+    NoDirection {
+        /// The edge.
+        edge: usize,
+    },
+    /// An edge has another direction than the problem says.
+    WrongWay {
+        /// The edge.
+        edge: usize,
+    },
+    /// A vertex that is no sink, whose streets all lead to it: one can get
+    /// there, but not on.
+    OnlyIn {
+        /// The vertex.
+        vertex: usize,
+    },
+    /// A vertex that is no sink, whose streets all lead away from it.
+    OnlyOut {
+        /// The vertex.
+        vertex: usize,
+    },
+    /// Streets lead on from a vertex, but none of them in its direction to a
+    /// sink, though one is joined to it.
+    NoWayOut {
+        /// The vertex.
+        vertex: usize,
+    },
+    /// Streets lead to a vertex, but none of them in its direction from a sink,
+    /// though one is joined to it.
+    NoWayIn {
+        /// The vertex.
+        vertex: usize,
+    },
 }
 
 impl fmt::Display for Violation {
@@ -114,6 +146,30 @@ impl fmt::Display for Violation {
                 write!(f, "no sink may be placed at vertex {vertex}, or not twice")
             }
             Self::NoRoom { room } => write!(f, "there is no room {room}"),
+            Self::NoDirection { edge } => {
+                write!(f, "edge {edge} has to be one-way, and has no direction")
+            }
+            Self::WrongWay { edge } => write!(f, "edge {edge} has to run another way"),
+            Self::OnlyIn { vertex } => {
+                write!(
+                    f,
+                    "all streets at vertex {vertex} lead to it, none leads on"
+                )
+            }
+            Self::OnlyOut { vertex } => {
+                write!(
+                    f,
+                    "all streets at vertex {vertex} lead away, none leads to it"
+                )
+            }
+            Self::NoWayOut { vertex } => write!(
+                f,
+                "no sink can be reached from vertex {vertex} along streets in their direction"
+            ),
+            Self::NoWayIn { vertex } => write!(
+                f,
+                "vertex {vertex} cannot be reached from a sink along streets in their direction"
+            ),
         }
     }
 }
@@ -127,7 +183,10 @@ pub struct Cost {
     /// Length of the active edges that were not given.
     pub length: f64,
     /// Sum over those edges of the way to the nearest sink from the nearer of
-    /// their two ends, over active edges. Infinite on an island.
+    /// their two ends, over active edges, by what travel over them costs. With
+    /// one-way streets the mean of that and of the way from the nearest sink,
+    /// each by the end that traffic of the edge may leave or enter by. Infinite
+    /// on an island.
     pub travel: f64,
     /// What patterns cost that are not forbidden.
     pub patterns: f64,
@@ -136,65 +195,29 @@ pub struct Cost {
     pub routes: f64,
 }
 
-/// The way from each vertex to its nearest sink over active edges; infinite
-/// where there is none.
-#[must_use]
-pub fn distances(problem: &Problem, active: &[bool]) -> Vec<f64> {
-    let mut away = vec![f64::INFINITY; problem.vertices];
-    let around = problem.around();
-    let mut queue = BinaryHeap::new();
-    for (v, _) in problem.sinks.iter().enumerate().filter(|(_, &sink)| sink) {
-        away[v] = 0.0;
-        queue.push((Reverse(Length(0.0)), v));
-    }
-    while let Some((Reverse(Length(gone)), v)) = queue.pop() {
-        if gone > away[v] {
-            continue;
-        }
-        for &(e, w) in &around[v] {
-            let there = gone + problem.lengths[e];
-            if active[e] && there < away[w] {
-                away[w] = there;
-                queue.push((Reverse(Length(there)), w));
-            }
-        }
-    }
-    away
-}
-
-/// A length that is a number.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Length(f64);
-
-impl Eq for Length {}
-
-impl PartialOrd for Length {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Length {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        self.0.total_cmp(&other.0)
-    }
-}
-
 /// What a network costs, valid or not. Patterns that are forbidden cost
 /// nothing here, nor do routes that have to be there. Where sinks are to be
 /// placed, see [`cost_of`](super::cost_of).
 ///
 /// # Panics
 ///
-/// If `active` has not one entry an edge.
+/// If there is not one entry an edge.
 #[must_use]
-pub fn cost(problem: &Problem, active: &[bool]) -> Cost {
-    let away = distances(problem, active);
+pub fn cost<'n>(problem: &Problem, streets: impl Into<Streets<'n>>) -> Cost {
+    let streets: Streets<'_> = streets.into();
+    let active = streets.active();
+    let away = distances(problem, streets);
+    let from = problem
+        .has_one_way()
+        .then(|| distances_from(problem, streets));
     let (mut length, mut travel) = (0.0, 0.0);
     for (e, &[a, b]) in problem.ends.iter().enumerate() {
         if active[e] && !problem.is_given(e) {
             length += problem.lengths[e];
-            travel += away[a].min(away[b]);
+            travel += match &from {
+                Some(from) => mean_way([a, b], streets.way(problem, e), &away, from),
+                None => away[a].min(away[b]),
+            };
         }
     }
     let patterns = problem
@@ -247,7 +270,8 @@ pub(super) fn occurs(pattern: &super::Pattern, active: &[bool]) -> bool {
 #[must_use]
 pub fn verify(problem: &Problem, network: &Network) -> Vec<Violation> {
     let active = &network.active;
-    if active.len() != problem.edges() {
+    let ways = network.ways.len();
+    if active.len() != problem.edges() || ways != 0 && ways != problem.edges() {
         return vec![Violation::WrongSize];
     }
     if problem.placed.is_some() || !network.sinks.is_empty() {
@@ -263,7 +287,9 @@ pub fn verify(problem: &Problem, network: &Network) -> Vec<Violation> {
             _ => {}
         }
     }
-    let away = distances(problem, active);
+    // Whatever the directions.
+    let on = |e: usize, _| active[e];
+    let away = ways_to(problem, &problem.around(), &problem.sinks, Heading::Out, on);
     let mut degree = vec![0_usize; problem.vertices];
     for (edge, &[a, b]) in problem.ends.iter().enumerate() {
         if active[edge] {
@@ -274,6 +300,9 @@ pub fn verify(problem: &Problem, network: &Network) -> Vec<Violation> {
                 found.push(Violation::Island { edge });
             }
         }
+    }
+    if problem.has_one_way() {
+        directions(problem, network, &away, &mut found);
     }
     for (row, ball) in problem.coverage.iter().enumerate() {
         if ball.iter().all(|&v| degree[v] == 0) {
@@ -302,6 +331,46 @@ pub fn verify(problem: &Problem, network: &Network) -> Vec<Violation> {
     }
     rooms(problem, network, &mut found);
     found
+}
+
+/// What is wrong with directions, islands left aside: they are named already.
+fn directions(problem: &Problem, network: &Network, away: &[f64], found: &mut Vec<Violation>) {
+    let streets = Streets::from(network);
+    let mut leads = vec![[false; 2]; problem.vertices];
+    let mut active = vec![false; problem.vertices];
+    for (edge, ends) in problem.ends.iter().enumerate() {
+        if !network.active[edge] {
+            continue;
+        }
+        let (asked, way) = (problem.way(edge), streets.way(problem, edge));
+        if way == Way::Either {
+            found.push(Violation::NoDirection { edge });
+        } else if asked != Way::Either && network.ways.get(edge).is_some_and(|&w| w != asked) {
+            found.push(Violation::WrongWay { edge });
+        }
+        for (k, &v) in ends.iter().enumerate() {
+            active[v] = true;
+            leads[v][0] |= way.runs_from(k);
+            leads[v][1] |= way.runs_from(1 - k);
+        }
+    }
+    let (to, from) = (
+        distances(problem, streets),
+        distances_from(problem, streets),
+    );
+    let there = (0..problem.vertices).filter(|&v| active[v] && away[v].is_finite());
+    for vertex in there {
+        match (leads[vertex][0], to[vertex].is_finite()) {
+            (_, true) => {}
+            (false, false) => found.push(Violation::OnlyIn { vertex }),
+            (true, false) => found.push(Violation::NoWayOut { vertex }),
+        }
+        match (leads[vertex][1], from[vertex].is_finite()) {
+            (_, true) => {}
+            (false, false) => found.push(Violation::OnlyOut { vertex }),
+            (true, false) => found.push(Violation::NoWayIn { vertex }),
+        }
+    }
 }
 
 fn rooms(problem: &Problem, network: &Network, found: &mut Vec<Violation>) {

@@ -1,6 +1,6 @@
 //! A program in the making: what all families of constraints share.
 
-use crate::design::{distances, Network, Problem};
+use crate::design::{distances, Network, Problem, Streets};
 use crate::mip::Program;
 
 use super::prepare::{prepare, Fate};
@@ -118,6 +118,8 @@ pub(super) struct Known<'p> {
     pub(super) rooms: &'p [usize],
     /// Whether each vertex is a sink, those chosen included.
     pub(super) sinks: Vec<bool>,
+    /// The active edges with their directions.
+    pub(super) streets: Streets<'p>,
     pub(super) degree: Vec<usize>,
     /// The way of each vertex to a sink.
     pub(super) away: Vec<f64>,
@@ -131,7 +133,7 @@ impl<'p> Known<'p> {
     pub(super) fn new(problem: &'p Problem, network: &'p Network) -> Self {
         let active = network.active.as_slice();
         let settled = problem.settled(&network.sinks);
-        let away = distances(&settled, active);
+        let away = distances(&settled, network);
         let mut degree = vec![0; problem.vertices];
         let mut next = vec![None; problem.vertices];
         for (e, &[a, b]) in problem.ends.iter().enumerate() {
@@ -143,7 +145,7 @@ impl<'p> Known<'p> {
             for (v, w) in [(a, b), (b, a)] {
                 // Lengths are positive, so the next vertex is nearer: no cycles.
                 // The way was computed as this very sum.
-                if away[v] == away[w] + problem.lengths[e] && next[v].is_none() {
+                if away[v] == away[w] + problem.travel_cost(e) && next[v].is_none() {
                     next[v] = Some((e, w));
                 }
             }
@@ -157,6 +159,7 @@ impl<'p> Known<'p> {
             active,
             rooms: &network.rooms,
             sinks: settled.sinks.clone(),
+            streets: network.into(),
             degree,
             away,
             next,

@@ -4,24 +4,29 @@
 //! `activity` (1), `dead_ends` (2), `coverage` (3), `patterns` (4, 5), `balls`
 //! (6), `flow` (7), `travel` (8), `single_sink` (9), `routes`, `rooms` (15 to
 //! 19), `sinks` (20), and `paper`, the formulation of Peng et al. 2016 as they wrote it.
+//! With one-way streets `arcs` (10 to 12) and `one_way` (13, 14) take the place of
+//! `flow` and `travel`; these two have numbers of their own.
 
 mod activity;
+mod arcs;
 mod balls;
 mod coverage;
 mod cycles;
 mod dead_ends;
 mod draft;
 mod flow;
+mod one_way;
 mod paper;
 mod patterns;
 mod prepare;
+mod reach;
 mod rooms;
 mod routes;
 mod single_sink;
 mod sinks;
 mod travel;
 
-use crate::design::{Network, Problem};
+use crate::design::{Heading, Network, Problem, Streets};
 use crate::error::DesignError;
 use crate::mip::{Program, Row};
 
@@ -35,7 +40,8 @@ pub use single_sink::longest_ways;
 /// All have the same valid networks and the same optimum, but that
 /// [`Formulation::Flow`] does not price travel and [`Formulation::Paper`]
 /// prices it by the paper's recursion, which is the true distance where all
-/// edges are of length 1.
+/// edges are of length 1. One-way streets are known to [`Formulation::Flow`] and
+/// [`Formulation::TravelFlow`] alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Formulation {
@@ -57,7 +63,7 @@ pub enum Formulation {
 impl Formulation {
     /// The one that measured best: [`Formulation::Flow`] where travel costs
     /// nothing, [`Formulation::SingleSink`] with one sink and travel that counts
-    /// most, [`Formulation::TravelFlow`] else. Where travel only breaks ties
+    /// most, and no street one-way, [`Formulation::TravelFlow`] else. Where travel only breaks ties
     /// between networks of one length, [`Exact`](crate::solve::Exact) solves the
     /// flow before it.
     #[must_use]
@@ -65,6 +71,8 @@ impl Formulation {
         let sinks = problem.sinks.iter().filter(|&&sink| sink).count();
         if problem.travel_weight == 0.0 {
             Self::Flow
+        } else if problem.has_one_way() {
+            Self::TravelFlow
         } else if sinks == 1
             && problem.placed.is_none()
             && problem.travel_weight >= problem.length_weight
@@ -83,6 +91,7 @@ pub struct Formulated<'p> {
     formulation: Formulation,
     program: Program,
     x: Vec<Term>,
+    arcs: Option<arcs::Arcs>,
     rooms: Option<usize>,
     placed: sinks::Placed,
     families: Vec<Family>,
@@ -107,7 +116,9 @@ impl<'p> Formulated<'p> {
     ///
     /// # Errors
     ///
-    /// [`DesignError::BadProblem`] if the problem does not fit together.
+    /// [`DesignError::BadProblem`] if the problem does not fit together;
+    /// [`DesignError::BadOption`] for a formulation that does not know one-way
+    /// streets, if there are any.
     ///
     /// # Examples
     ///
@@ -145,6 +156,7 @@ impl<'p> Formulated<'p> {
             Formulation::Recommended => Formulation::for_problem(problem),
             other => other,
         };
+        knows_ways(problem, formulation)?;
         let mut draft = Draft::new(problem);
         let tight = formulation != Formulation::Paper;
         let mut families: Vec<Family> = Vec::new();
@@ -159,7 +171,22 @@ impl<'p> Formulated<'p> {
             balls::add(&mut draft);
         }
         let plain_columns = draft.program.columns().len();
+        let arcs = problem.has_one_way().then(|| arcs::add(&mut draft));
+        if let Some(arcs) = &arcs {
+            plain(Box::new(arcs.clone()));
+            let travels = formulation == Formulation::TravelFlow;
+            for heading in Heading::BOTH {
+                if travels {
+                    plain(Box::new(one_way::add_edges(&mut draft, arcs, heading)));
+                }
+                if !travels || one_way::has_orphans(problem, heading) {
+                    plain(Box::new(one_way::add_vertices(&mut draft, arcs, heading)));
+                }
+            }
+        }
         match formulation {
+            // Done.
+            _ if arcs.is_some() => {}
             Formulation::Recommended | Formulation::Flow => {
                 plain(Box::new(flow::add(&mut draft)));
             }
@@ -185,6 +212,7 @@ impl<'p> Formulated<'p> {
             formulation,
             program,
             x: draft.x,
+            arcs,
             rooms,
             placed,
             families,
@@ -237,8 +265,12 @@ impl<'p> Formulated<'p> {
             Term::On => true,
             Term::Column(column) => values[*column] > 0.5,
         });
+        let active: Vec<bool> = active.collect();
+        let arcs = self.arcs.as_ref();
+        let backward = |e: usize| arcs.is_some_and(|arcs| arcs.is_backward(e, values));
         Network {
-            active: active.collect(),
+            ways: self.problem.decided_ways(&active, backward),
+            active,
             rooms: (self.room_family()).map_or_else(Vec::new, |rooms| rooms.placed(values)),
             sinks: self.placed.chosen(values),
         }
@@ -280,8 +312,8 @@ impl<'p> Formulated<'p> {
         (self.room_family()).map_or_else(Vec::new, |rooms| rooms.separate(values, tolerance))
     }
 
-    /// The program with all edges as in `network` but those of which `free` says
-    /// true, and rooms as there but those with all their edges free.
+    /// The program with all edges and their directions as in `network` but those
+    /// of which `free` says true, and rooms as there but those with all their edges free.
     ///
     /// # Panics
     ///
@@ -294,6 +326,15 @@ impl<'p> Formulated<'p> {
         for (e, x) in self.x.iter().enumerate() {
             if let (Term::Column(column), false) = (*x, free[e]) {
                 let value = f64::from(u8::from(network.active[e]));
+                program.bound(column, value, value);
+            }
+        }
+        let streets = Streets::from(network);
+        for &(e, columns) in self.arcs.iter().flat_map(|arcs| arcs.free()) {
+            let way = streets.way(self.problem, e);
+            for (end, column) in columns.into_iter().enumerate().filter(|_| !free[e]) {
+                let runs = network.active[e] && way.runs_from(end);
+                let value = f64::from(u8::from(runs));
                 program.bound(column, value, value);
             }
         }
@@ -342,14 +383,35 @@ impl<'p> Formulated<'p> {
     }
 }
 
+/// Whether a formulation knows the one-way streets of a problem, if it has any.
+fn knows_ways(problem: &Problem, formulation: Formulation) -> Result<(), DesignError> {
+    if !problem.has_one_way() {
+        return Ok(());
+    }
+    let name = match formulation {
+        Formulation::SingleSink => "SingleSink",
+        Formulation::Paper => "Paper",
+        Formulation::Recommended | Formulation::Flow | Formulation::TravelFlow => return Ok(()),
+    };
+    Err(DesignError::BadOption {
+        what: format!(
+            "the formulation {name} does not know one-way streets; take Flow, TravelFlow (where \
+             travel costs something) or Recommended"
+        ),
+    })
+}
+
 /// What the cost of every network is a multiple of, to a billionth; 0 if that
 /// is too little to be of use.
 fn step(problem: &Problem, formulation: Formulation) -> f64 {
     let fold = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, common);
     let length = fold(&mut problem.lengths.iter().copied());
+    let over = fold(&mut (0..problem.edges()).map(|e| problem.travel_cost(e)));
     let travel = match formulation {
         Formulation::Flow => 0.0,
-        _ => problem.travel_weight * length,
+        // The mean of two ways.
+        _ if problem.has_one_way() => 0.5 * problem.travel_weight * over,
+        _ => problem.travel_weight * over,
     };
     let patterns = fold(&mut problem.patterns.iter().filter_map(|p| p.cost));
     let routes = fold(&mut problem.routes.iter().filter_map(|r| r.cost));

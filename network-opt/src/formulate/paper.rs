@@ -26,7 +26,9 @@
 //! its equations), that stands on the right of (3) and (10) as well.
 //!
 //! The recursion (2) adds the first edge of a way and not the last, so D is the
-//! way of v_j to its sink only if all edges are of length 1. Given edges have
+//! way of v_j to its sink only if all edges are of length 1. (l is what travel
+//! costs, see [`travel_cost`](crate::design::Problem::travel_cost).) One-way
+//! streets it does not know. Given edges have
 //! half-edges, but their D is free of charge, as is their length; those between
 //! two sinks have none. So the program of the paper's figure 2a has its 2241
 //! variables, those of equations 9 and 12 not counted.
@@ -54,7 +56,11 @@ pub(super) fn add(draft: &mut Draft<'_>) -> HalfEdges {
     let problem = draft.problem;
     let edges = problem.edges();
     let possible: Vec<usize> = (0..edges).filter(|&e| draft.possible(e)).collect();
-    let all = 2.0 * possible.iter().map(|&e| problem.lengths[e]).sum::<f64>();
+    let all = 2.0
+        * possible
+            .iter()
+            .map(|&e| problem.travel_cost(e))
+            .sum::<f64>();
     let mut columns = HalfEdges {
         active: vec![[None; 2]; edges],
         distance: vec![[None; 2]; edges],
@@ -126,7 +132,7 @@ fn follow(draft: &mut Draft<'_>, columns: &mut HalfEdges, e: usize, k: usize, al
         );
         draft.row(f64::NEG_INFINITY, 0.0, [(l, 1.0), (next, -1.0)]);
         let step = [(there, 1.0), (distance, -1.0), (l, all)];
-        draft.row(f64::NEG_INFINITY, all - problem.lengths[e], step);
+        draft.row(f64::NEG_INFINITY, all - problem.travel_cost(e), step);
         any.push((l, -1.0));
     }
     any.push((draft.s[j], -1.0));
@@ -179,7 +185,7 @@ impl Fill for HalfEdges {
                 gone[v] = if at_sink {
                     0.0
                 } else {
-                    problem.lengths[e] + gone[w]
+                    problem.travel_cost(e) + gone[w]
                 };
             }
         }
@@ -198,7 +204,7 @@ impl Fill for HalfEdges {
             if known.sinks[to] {
                 continue;
             }
-            set(self.distance[e][k], problem.lengths[e] + gone[to]);
+            set(self.distance[e][k], problem.travel_cost(e) + gone[to]);
             for &(f, column) in &self.follows[e][k] {
                 if known.next[to].is_some_and(|(next, _)| next == f) {
                     values[column] = 1.0;

@@ -1,5 +1,6 @@
 //! What is known of each edge before any program is solved.
 
+use super::reach::useful;
 use crate::design::{EdgeState, Problem};
 
 /// Whether an edge is active in every valid network, in none, or in some.
@@ -21,7 +22,8 @@ pub enum Fate {
 ///   given, and too close edges are forbidden, the edge across it is off;
 /// - where dead ends are forbidden, the last edge at a vertex that is no sink is
 ///   off, and the last beside an edge that is on is on;
-/// - edges that no sink can be reached from are off.
+/// - edges that no sink can be reached from are off, and with one-way streets
+///   those that cannot be reached from a sink.
 ///
 /// Edges that the problem demands stay on, whatever follows: the program says
 /// then that there is no network. No valid network is lost (a law of
@@ -97,6 +99,15 @@ fn dead_ends(sinks: &[bool], around: &[Vec<(usize, usize)>], fates: &mut [Fate])
 }
 
 fn islands(problem: &Problem, sinks: &[bool], around: &[Vec<(usize, usize)>], fates: &mut [Fate]) {
+    if problem.has_one_way() {
+        let useful = useful(problem, &|e| fates[e] != Fate::Off);
+        for (e, ends) in problem.ends.iter().enumerate() {
+            if fates[e] == Fate::Open && ends.iter().any(|&v| !useful[v]) {
+                fates[e] = Fate::Off;
+            }
+        }
+        return;
+    }
     let mut reached = sinks.to_vec();
     let mut queue: Vec<usize> = (0..problem.vertices).filter(|&v| reached[v]).collect();
     while let Some(v) = queue.pop() {

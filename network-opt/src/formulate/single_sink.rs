@@ -24,6 +24,7 @@ use std::collections::BinaryHeap;
 
 use super::draft::{Draft, Fill, Known, Term};
 use super::prepare::{prepare, Fate};
+use super::reach::useful;
 use crate::design::{distances, Problem};
 
 /// For each vertex, a way than which it has no longer one to its sink in any
@@ -39,16 +40,29 @@ use crate::design::{distances, Problem};
 /// edges last and few of them, and it must not be over `cost`: so n is bounded
 /// by some N_w, and the way of v by g_w + N_w, for the w from which v can be
 /// reached over N_w. Given edges that lead to no sink by themselves are counted
-/// as if they lay on every way.
+/// as if they lay on every way. Ways are of what travel costs, so an edge with
+/// a way of c_i over it costs at least r c_i of length, with r the least of l /
+/// c over all edges: that takes the place of lambda_L's l_i.
+///
+/// With one-way streets the bounds are what all edges cost together, because no
+/// way passes an edge twice in one direction; and minus infinity where no sink
+/// can be reached, or none reaches.
 #[must_use]
 pub fn longest_ways(problem: &Problem, cost: f64) -> Vec<f64> {
     let fates = prepare(problem);
     let possible: Vec<bool> = fates.iter().map(|&fate| fate != Fate::Off).collect();
+    if problem.has_one_way() {
+        let edges = (0..problem.edges()).filter(|&e| possible[e]);
+        let all = edges.map(|e| problem.travel_cost(e)).sum::<f64>();
+        let useful = useful(problem, &|e| possible[e]);
+        let bound = |u: bool| if u { all } else { f64::NEG_INFINITY };
+        return useful.into_iter().map(bound).collect();
+    }
     let given: Vec<bool> = (0..problem.edges()).map(|e| problem.is_given(e)).collect();
     let least = distances(&problem.eased(), &possible);
     let mut over_given = distances(problem, &given);
     let sum =
-        |edges: &mut dyn Iterator<Item = usize>| edges.map(|e| problem.lengths[e]).sum::<f64>();
+        |edges: &mut dyn Iterator<Item = usize>| edges.map(|e| problem.travel_cost(e)).sum::<f64>();
     let mut apart =
         (0..problem.edges()).filter(|&e| given[e] && over_given[problem.ends[e][0]].is_infinite());
     let extra = sum(&mut apart);
@@ -62,13 +76,17 @@ pub fn longest_ways(problem: &Problem, cost: f64) -> Vec<f64> {
     }
     let longest = (0..problem.edges())
         .filter(|&e| possible[e])
-        .map(|e| problem.lengths[e])
+        .map(|e| problem.travel_cost(e))
         .fold(0.0, f64::max);
     let all = sum(&mut (0..problem.edges()).filter(|&e| possible[e]));
+    let rate = (0..problem.edges())
+        .filter(|&e| possible[e])
+        .map(|e| problem.lengths[e] / problem.travel_cost(e))
+        .fold(f64::INFINITY, f64::min);
     let around = problem.around();
     let mut ways = vec![f64::NEG_INFINITY; problem.vertices];
     for w in (0..problem.vertices).filter(|&w| over_given[w].is_finite()) {
-        let paid = paid_length(problem, cost, least[w], longest).min(all);
+        let paid = paid_length(problem, rate, cost, least[w], longest).min(all);
         // All vertices within `paid` of w.
         let mut within = vec![f64::INFINITY; problem.vertices];
         let mut queue = BinaryHeap::from([(Reverse(0_u64), w)]);
@@ -82,7 +100,12 @@ pub fn longest_ways(problem: &Problem, cost: f64) -> Vec<f64> {
             ways[v] = ways[v].max(over_given[w] + paid + extra);
             for &(e, u) in &around[v] {
                 // Orphans' edges are no matter of cost.
-                let there = gone + if given[e] { 0.0 } else { problem.lengths[e] };
+                let there = gone
+                    + if given[e] {
+                        0.0
+                    } else {
+                        problem.travel_cost(e)
+                    };
                 if possible[e] && there < within[u] && there <= paid + 1e-9 {
                     within[u] = there;
                     queue.push((Reverse(there.to_bits()), u));
@@ -103,9 +126,12 @@ pub fn longest_ways(problem: &Problem, cost: f64) -> Vec<f64> {
 }
 
 /// How long a path of paid edges may be that begins `away` from a sink and
-/// costs at most `cost`.
-fn paid_length(problem: &Problem, cost: f64, away: f64, longest: f64) -> f64 {
-    let (length, travel) = (problem.length_weight, problem.travel_weight);
+/// costs at most `cost`; `rate` is the least length of an edge for what travel
+/// over it costs.
+fn paid_length(problem: &Problem, rate: f64, cost: f64, away: f64, longest: f64) -> f64 {
+    // Without any edge there is no rate.
+    let rate = if rate.is_finite() { rate } else { 1.0 };
+    let (length, travel) = (problem.length_weight * rate, problem.travel_weight);
     // The edge of which k others of the path come after it is travelled on by
     // all of them, and each pays the way before the path.
     let (mut left, mut gone) = (cost.max(0.0), 0.0);
@@ -143,13 +169,13 @@ pub(super) struct Distances {
 }
 
 /// Adds columns and rows (9); `longest` has a bound for each vertex, else the
-/// sum of all lengths is taken.
+/// sum of what travel over all edges costs is taken.
 pub(super) fn add(draft: &mut Draft<'_>, longest: Option<&[f64]>) -> Distances {
     let problem = draft.problem;
     let edges = problem.edges();
     let possible: Vec<bool> = (0..edges).map(|e| draft.possible(e)).collect();
     let least = distances(&problem.eased(), &possible);
-    let all: f64 = problem.lengths.iter().sum();
+    let all: f64 = (0..edges).map(|e| problem.travel_cost(e)).sum();
     let mut columns = Distances {
         parent: vec![[None; 2]; edges],
         charged: vec![[None; 2]; edges],
@@ -178,7 +204,7 @@ pub(super) fn add(draft: &mut Draft<'_>, longest: Option<&[f64]>) -> Distances {
     let mut parents: Vec<Vec<(Term, f64)>> = vec![Vec::new(); problem.vertices];
     for e in (0..edges).filter(|&e| possible[e]) {
         let x = draft.x[e];
-        let length = problem.lengths[e];
+        let length = problem.travel_cost(e);
         let mut once = vec![(x, -1.0)];
         for k in 0..2 {
             let (v, w) = (problem.ends[e][k], problem.ends[e][1 - k]);

@@ -7,7 +7,8 @@
 //! outflow - inflow = sum of the h at v, at each v that is no sink,
 //! f_ij + f_ji <= n x_e,   (8)
 //!
-//! and the flow costs lambda_D l_e f. The least flow takes the shortest ways
+//! and the flow costs lambda_D c_e f, with c_e what travel over e costs, its
+//! length or its time. The least flow takes the shortest ways
 //! from the nearer ends, so it costs what [`cost`](crate::design::cost) calls
 //! travel: with edges of length 1 the paper's sum of D. (With other lengths the
 //! paper's recursion, equation 2, counts the first edge of a way and not the
@@ -63,7 +64,7 @@ pub(super) fn add(draft: &mut Draft<'_>) -> Travel {
             draft.row(0.0, 0.0, share);
         }
         let mut capacity = vec![(draft.x[e], -most)];
-        let cost = problem.travel_weight * problem.lengths[e];
+        let cost = problem.travel_weight * problem.travel_cost(e);
         for (k, (from, to)) in [(a, b), (b, a)].into_iter().enumerate() {
             if problem.sinks[from] {
                 continue;

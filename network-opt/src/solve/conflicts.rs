@@ -37,6 +37,8 @@ pub enum Constraints {
     /// That so many sinks are placed, each on a street: without it all the
     /// candidates are sinks.
     PlacedSinks,
+    /// That streets are one-way: without it traffic runs both ways everywhere.
+    Directions,
 }
 
 /// What makes a problem infeasible.
@@ -173,6 +175,7 @@ fn families(problem: &Problem) -> Vec<Constraints> {
         (problem.placed.is_some(), Constraints::PlacedSinks),
         (problem.rooms.is_some(), Constraints::Rooms),
         (true, Constraints::Connectivity),
+        (problem.has_one_way(), Constraints::Directions),
     ];
     let plain = plain
         .into_iter()
@@ -215,6 +218,7 @@ fn without(problem: &Problem, families: &[Constraints]) -> Problem {
             Constraints::Across => drop_routes(&mut rest, RouteKind::Across),
             Constraints::PlacedSinks => rest = rest.eased().into_owned(),
             Constraints::Rooms => rest.rooms = None,
+            Constraints::Directions => rest.ways.clear(),
             Constraints::Connectivity => {
                 rest.sinks.iter_mut().for_each(|sink| *sink = true);
                 rest.placed = None;
@@ -227,7 +231,7 @@ fn without(problem: &Problem, families: &[Constraints]) -> Problem {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::Pattern;
+    use crate::design::{Pattern, Way};
     use crate::mip::Microlp;
 
     /// A square with the sink at 0; 2 has to be reached, and the two edges at 0
@@ -249,6 +253,25 @@ mod tests {
             length_weight: 1.0,
             ..Problem::default()
         }
+    }
+
+    /// A street that leads to a place, and none that leads out of it.
+    #[test]
+    fn directions_are_a_family() {
+        use Constraints::{Connectivity, Coverage, Directions};
+        let mut problem = square();
+        problem.patterns.clear();
+        problem.dead_ends = true;
+        problem.states[2] = EdgeState::Closed;
+        problem.ways = vec![Way::Forward, Way::Either, Way::Both, Way::Both];
+        let found = conflicts(&problem, &Microlp, &Limits::default());
+        let found = found.expect("solved").expect("a conflict");
+        let closed = Constraints::ClosedEdges;
+        assert_eq!(found.each, [Coverage, closed, Connectivity, Directions]);
+        assert!(found.complete);
+        problem.states[2] = EdgeState::Open;
+        let found = conflicts(&problem, &Microlp, &Limits::default());
+        assert_eq!(found.expect("solved"), None);
     }
 
     #[test]

@@ -12,8 +12,9 @@ use crate::design::NetworkStudy;
 /// the collection says `"coordinate_units": "metres"`).
 ///
 /// Every feature is a LineString with `id` (its position), `part` of the site,
-/// `class`, `level` (0 for the widest), `width_m` and `length_m`. A ring
-/// repeats its first point at the end.
+/// `class`, `level` (0 for the widest), `width_m`, `speed_kmh`, `length_m` and
+/// `one_way`: a one-way street runs in its direction. A ring repeats its first
+/// point at the end.
 #[must_use]
 pub fn network_to_geojson(study: &NetworkStudy, frame: &Frame) -> String {
     let mut text = String::from("{\"type\":\"FeatureCollection\",");
@@ -29,12 +30,15 @@ pub fn network_to_geojson(study: &NetworkStudy, frame: &Frame) -> String {
             let _ = write!(
                 text,
                 "{}\n{{\"type\":\"Feature\",\"properties\":{{\"kind\":\"street\",\"id\":{id},\"part\":{index},\
-                 \"class\":{class},\"level\":{},\"width_m\":{},\"length_m\":{}}},\
+                 \"class\":{class},\"level\":{},\"width_m\":{},\"speed_kmh\":{},\"length_m\":{},\
+                 \"one_way\":{}}},\
                  \"geometry\":{{\"type\":\"LineString\",\"coordinates\":",
                 if id == 0 { "" } else { "," },
                 street.level,
                 number(level.width, 3),
+                number(level.speed(), 2),
                 number(crate::plane::length(&street.line.0), 3),
+                street.one_way,
             );
             push_line(&mut text, frame, &street.line);
             text.push_str("}}");

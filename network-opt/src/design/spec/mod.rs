@@ -9,6 +9,7 @@ mod traffic;
 pub use places::{Among, Place};
 pub use traffic::{Across, Inside, Pairs, Parts, Traffic};
 
+use super::one_way::{ways, OneWay};
 use super::placed::PlacedSinks;
 use super::problem::{EdgeState, Problem};
 use super::tessellation::Tessellation;
@@ -166,6 +167,14 @@ pub struct Specification {
     /// Whether routes are free of branches: nothing else touches their inner
     /// vertices, as in the paper's figure 6d.
     pub through: bool,
+    /// Which streets are one-way.
+    ///
+    /// Default value: none.
+    pub one_way: OneWay,
+    /// Streets over which traffic may only run one way, where they are part of
+    /// the network: runs of vertices in the order in which traffic passes them,
+    /// each joined to the next by an edge.
+    pub one_way_runs: Vec<Vec<usize>>,
 }
 
 impl Default for Specification {
@@ -186,6 +195,8 @@ impl Default for Specification {
             obstacles: Vec::new(),
             routes: Vec::new(),
             through: false,
+            one_way: OneWay::None,
+            one_way_runs: Vec::new(),
         }
     }
 }
@@ -200,13 +211,15 @@ impl Specification {
     /// # Errors
     ///
     /// [`DesignError::BadProblem`] for a vertex that is not in the mesh, a
-    /// route that does not follow edges or runs into an obstacle, a number out
-    /// of its range, no sink, or places that have to be joined and cannot be;
-    /// [`DesignError::BadOption`] for parts that are not.
+    /// route or one-way run that does not follow edges, a route into an obstacle,
+    /// one-way runs against each other, a number out of its range, no sink, or
+    /// places that have to be joined and cannot be; [`DesignError::BadOption`] for
+    /// parts that are not.
     pub fn on(&self, mesh: &Tessellation) -> Result<Problem, DesignError> {
         let bad = |what: String| Err(DesignError::BadProblem { what });
         let (vertices, edges) = (mesh.points().len(), mesh.edges().len());
-        let named = self.obstacles.iter().chain(self.routes.iter().flatten());
+        let runs = self.routes.iter().chain(&self.one_way_runs);
+        let named = self.obstacles.iter().chain(runs.flatten());
         let sinks = match &self.sinks {
             Sinks::At(list) => list.as_slice(),
             Sinks::Boundary | Sinks::Streets | Sinks::Placed { .. } => &[],
@@ -258,6 +271,7 @@ impl Specification {
             coverage: self.balls(mesh)?,
             patterns: self.patterns(mesh, &states),
             dead_ends: self.dead_ends != Feature::Forbidden,
+            ways: ways(self.one_way, &self.one_way_runs, mesh, &states)?,
             states,
             sinks: is_sink,
             placed,

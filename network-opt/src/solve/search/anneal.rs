@@ -133,7 +133,7 @@ impl<'m, 'p> Anneal<'m, 'p> {
         }
         let state = &self.walk.state;
         self.best = Some(Best {
-            network: state.network(),
+            network: state.network(self.walk.model),
             objective: self.at.objective,
         });
         if !state.charged.is_empty() && self.at.objective > 0.0 {

@@ -51,10 +51,7 @@ impl Bound {
     pub(super) fn new(model: &Model<'_>) -> Self {
         let problem = model.problem;
         let costs: Vec<f64> = (0..problem.edges())
-            .map(|e| {
-                let [a, b] = problem.ends[e];
-                model.price(e, model.least[a].min(model.least[b]))
-            })
+            .map(|e| model.price(e, model.floor[e]))
             .collect();
         let chosen = |e: usize| model.fates[e] == Fate::On && !model.given[e];
         let fixed = (0..problem.edges())
@@ -188,17 +185,21 @@ impl Bound {
     }
 }
 
-/// What all objectives are multiples of, if lengths are equal.
+/// What all objectives are multiples of, if lengths and costs of travel are equal.
 fn quantum(problem: &crate::design::Problem) -> f64 {
     let Some(&length) = problem.lengths.first() else {
         return 0.0;
     };
-    if problem.lengths.iter().any(|&l| l != length) {
+    let over = problem.travel_cost(0);
+    let other = |e: usize| problem.lengths[e] != length || problem.travel_cost(e) != over;
+    if (0..problem.edges()).any(other) {
         return 0.0;
     }
+    // The mean of a way out and a way in may be a half.
+    let share = if problem.has_one_way() { 0.5 } else { 1.0 };
     let mut parts = vec![
         problem.length_weight * length,
-        problem.travel_weight * length,
+        share * problem.travel_weight * over,
     ];
     parts.extend(problem.patterns.iter().filter_map(|p| p.cost));
     parts.extend(problem.routes.iter().filter_map(|r| r.cost));

@@ -5,6 +5,8 @@ use std::collections::BinaryHeap;
 
 use super::model::{Fate, Model};
 use super::state::State;
+use super::turns::passes;
+use crate::design::Heading;
 
 /// How a path is to be found.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +25,11 @@ pub(super) struct Manner {
     pub(super) opening: f64,
     /// Whether the path may only end where there is a way to a sink.
     pub(super) reached: bool,
+    /// Which way traffic is to run over the path; `None` if that is no matter.
+    pub(super) heading: Option<Heading>,
+    /// Whether it may pass what is active, at no cost, until it is where there is
+    /// a way.
+    pub(super) through: bool,
     /// How much the ways at its end count.
     pub(super) pull: f64,
 }
@@ -81,7 +88,8 @@ impl Finder {
             if gone > self.cost[v] {
                 continue;
             }
-            if v != from && state.is_stop(v) {
+            let passed = manner.through && away[v].is_infinite();
+            if v != from && state.is_stop(v) && !passed {
                 let mut at = v;
                 while self.by[at] != NONE {
                     let e = self.by[at];
@@ -98,7 +106,15 @@ impl Finder {
                 self.by[other(problem.ends[last], v)]
             };
             for &(e, w) in model.around.of(v) {
-                if state.active[e] || model.fates[e] == Fate::Off || w == from || w == besides {
+                let active = state.active[e];
+                if active && !manner.through
+                    || model.fates[e] == Fate::Off
+                    || w == from
+                    || w == besides
+                {
+                    continue;
+                }
+                if !passes(model, state, e, w, manner.heading) {
                     continue;
                 }
                 // Every step costs something.
@@ -106,10 +122,10 @@ impl Finder {
                     continue;
                 }
                 let stop = state.is_stop(w);
-                if stop && manner.reached && away[w].is_infinite() {
+                if stop && manner.reached && !manner.through && away[w].is_infinite() {
                     continue;
                 }
-                let mut step = model.price(e, model.least[v].min(model.least[w]));
+                let mut step = model.price(e, model.floor[e]);
                 step += 1e-3 * model.unit;
                 if manner.noise > 0.0 {
                     step *= 1.0 + manner.noise * scatter(e as u64 ^ manner.salt);
@@ -135,10 +151,10 @@ impl Finder {
                     step -= manner.opening
                         * opens.filter(|&&p| state.rooms.shut.contains(p)).count() as f64;
                 }
-                if step.is_infinite() {
+                if step.is_infinite() && !active {
                     continue;
                 }
-                let there = gone + step.max(floor);
+                let there = gone + if active { 0.0 } else { step.max(floor) };
                 if self.round[w] != now || there < self.cost[w] {
                     self.round[w] = now;
                     self.cost[w] = there;
@@ -223,6 +239,8 @@ mod tests {
         reward: 0.0,
         opening: 0.0,
         reached: false,
+        heading: None,
+        through: false,
         pull: 0.0,
     };
 

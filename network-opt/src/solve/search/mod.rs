@@ -27,6 +27,7 @@ mod run;
 mod score;
 mod state;
 mod tiling;
+mod turns;
 mod ways;
 
 use super::{Limits, NetworkSolver, Outcome, Watch};

@@ -6,7 +6,8 @@ use std::collections::BinaryHeap;
 
 use super::lists::{inverse, Lists};
 use super::placing::Placing;
-use crate::design::{EdgeState, Problem};
+use super::turns::{floors, is_lost, Turns};
+use crate::design::{EdgeState, Heading, Problem};
 
 /// What is decided of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,8 +50,10 @@ pub(super) struct Model<'p> {
     pub(super) rooms: Option<RoomModel>,
     /// The way of each vertex to a sink over given edges alone.
     pub(super) base: Vec<f64>,
-    /// The way over all edges that may be active: no network has a shorter one.
-    pub(super) least: Vec<f64>,
+    /// Directions, if any edge is one-way.
+    pub(super) turns: Option<Turns>,
+    /// By edge, the least that its travel can be.
+    pub(super) floor: Vec<f64>,
     /// Given edges that reach no sink by themselves.
     pub(super) stray: Vec<usize>,
     /// Shortest cycles, by their edges, and which pass each edge.
@@ -128,20 +131,31 @@ impl<'p> Model<'p> {
         let rows_at = inverse(&rows, vertices);
 
         let given: Vec<bool> = (0..edges).map(|e| problem.is_given(e)).collect();
-        let base = ways(problem, &around, &problem.sinks, |e| given[e]);
-        let least = ways(problem, &around, &may_sink, |e| fates[e] != Fate::Off);
+        let base = ways(problem, &around, &problem.sinks, Heading::Out, |e, end| {
+            given[e] && problem.way(e).runs_from(end)
+        });
+        let least = ways(problem, &around, &may_sink, Heading::Out, |e, end| {
+            fates[e] != Fate::Off && problem.way(e).may_run_from(end)
+        });
+        let turns = Turns::new(problem, &around, &given, &fates);
+        let lost = |e: usize, to: &[f64], from: Option<&Vec<f64>>| match from {
+            Some(from) => is_lost(problem.ends[e], problem.way(e), to, from),
+            None => to[problem.ends[e][0]].is_infinite(),
+        };
         let stray = (0..edges)
-            .filter(|&e| given[e] && base[problem.ends[e][0]].is_infinite())
+            .filter(|&e| given[e] && lost(e, &base, turns.as_ref().map(|t| &t.base)))
             .collect();
-        if (0..edges).any(|e| fates[e] == Fate::On && least[problem.ends[e][0]].is_infinite()) {
-            return Err(Hopeless);
-        }
-        for e in 0..edges {
-            // What reaches no sink is an island.
-            if least[problem.ends[e][0]].is_infinite() {
-                fates[e] = Fate::Off;
+        for (fate, ends) in fates.iter_mut().zip(&problem.ends) {
+            let far = |way: &[f64]| ends.iter().any(|&v| way[v].is_infinite());
+            // What reaches no sink is an island; what none reaches is no use.
+            if far(&least) || turns.as_ref().is_some_and(|t| far(&t.least)) {
+                if *fate == Fate::On {
+                    return Err(Hopeless);
+                }
+                *fate = Fate::Off;
             }
         }
+        let floor = floors(problem, &least, turns.as_ref());
 
         let mut route_of = Vec::new();
         let mut paths = Vec::new();
@@ -177,7 +191,7 @@ impl<'p> Model<'p> {
             .map(|_| RoomModel::new(problem, &fates));
         let cycles = cycles(problem, &around, &fates);
         let cycles_at = inverse(&cycles, edges);
-        let unit = unit(problem, &fates, &least);
+        let unit = unit(problem, &fates, &floor);
         Ok(Self {
             problem,
             around,
@@ -198,7 +212,8 @@ impl<'p> Model<'p> {
             placing,
             rooms,
             base,
-            least,
+            turns,
+            floor,
             stray,
             cycles,
             cycles_at,
@@ -334,10 +349,10 @@ fn decide(
         for v in (0..problem.vertices).filter(|&v| !problem.dead_ends && !may_sink[v]) {
             let mut usable = around.of(v).iter().filter(|&&(e, _)| fates[e] != Fate::Off);
             if let (Some(&(e, _)), None) = (usable.next(), usable.next()) {
-                if fates[e] == Fate::On {
+                if *fate == Fate::On {
                     return Err(Hopeless);
                 }
-                fates[e] = Fate::Off;
+                *fate = Fate::Off;
                 changed = true;
             }
         }
@@ -370,12 +385,14 @@ fn undominated(mut rows: Vec<Vec<usize>>, vertices: usize) -> Vec<Vec<usize>> {
     rows
 }
 
-/// The way from each vertex to the nearest of some sinks over some of the edges.
-fn ways(
+/// The way from each vertex to the nearest of some sinks, or to it from one, over
+/// some of the edges, by the end from which traffic runs over them.
+pub(super) fn ways(
     problem: &Problem,
     around: &Lists<(usize, usize)>,
     sinks: &[bool],
-    may: impl Fn(usize) -> bool,
+    heading: Heading,
+    may: impl Fn(usize, usize) -> bool,
 ) -> Vec<f64> {
     let mut away = vec![f64::INFINITY; problem.vertices];
     let mut queue = BinaryHeap::new();
@@ -390,8 +407,9 @@ fn ways(
             continue;
         }
         for &(e, w) in around.of(v) {
-            let there = gone + problem.lengths[e];
-            if may(e) && there < away[w] {
+            let there = gone + problem.travel_cost(e);
+            let tail = heading.tail(usize::from(problem.ends[e][1] == w));
+            if there < away[w] && may(e, tail) {
                 away[w] = there;
                 queue.push(Reverse((there.to_bits(), w)));
             }
@@ -455,12 +473,11 @@ fn cycles(problem: &Problem, around: &Lists<(usize, usize)>, fates: &[Fate]) -> 
     Lists::new(found.into_iter().collect())
 }
 
-fn unit(problem: &Problem, fates: &[Fate], least: &[f64]) -> f64 {
+fn unit(problem: &Problem, fates: &[Fate], floor: &[f64]) -> f64 {
     let (mut sum, mut count) = (0.0, 0);
-    for (e, &[a, b]) in problem.ends.iter().enumerate() {
-        if fates[e] == Fate::Open {
-            sum += problem.length_weight * problem.lengths[e]
-                + problem.travel_weight * least[a].min(least[b]);
+    for (e, fate) in fates.iter().enumerate() {
+        if *fate == Fate::Open {
+            sum += problem.length_weight * problem.lengths[e] + problem.travel_weight * floor[e];
             count += 1;
         }
     }

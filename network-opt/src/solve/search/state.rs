@@ -2,12 +2,13 @@
 
 use super::lists::Subset;
 use super::model::{Fate, Model};
-use crate::design::Network;
+use crate::design::{Network, Way};
 
 /// What was done, to be undone.
 #[derive(Clone, Copy, Debug)]
 enum Deed {
     Flip(usize),
+    Turn(usize),
     Place(usize),
     Clear(usize),
     /// A sink was moved from one vertex to another.
@@ -24,6 +25,10 @@ pub(super) struct State {
     pub(super) removable: Subset,
     /// Active edges that were not given.
     pub(super) charged: Subset,
+    /// Whether each edge whose direction is open runs from its second end to its
+    /// first, and which of these are active.
+    pub(super) backward: Vec<bool>,
+    pub(super) turnable: Subset,
     /// Active vertices of each row, and rows with none.
     covers: Vec<usize>,
     pub(super) missing: Subset,
@@ -87,6 +92,8 @@ impl State {
             degree: vec![0; vertices],
             removable: Subset::new(edges),
             charged: Subset::new(edges),
+            backward: vec![false; edges],
+            turnable: Subset::new(edges),
             covers: vec![0; model.rows.len()],
             missing: all(model.rows.len()),
             gains: (0..vertices).map(|v| model.rows_at.of(v).len()).collect(),
@@ -159,6 +166,9 @@ impl State {
         if model.fates[e] == Fate::Open {
             self.removable.set(e, on);
         }
+        if model.problem.way(e) == Way::Either {
+            self.turnable.set(e, on);
+        }
         if !model.given[e] {
             self.charged.set(e, on);
             let length = model.problem.lengths[e];
@@ -214,6 +224,12 @@ impl State {
                 self.route_cost += if lapsed { cost } else { -cost };
             }
         }
+    }
+
+    /// Turns a one-way edge whose direction is open, active or not.
+    pub(super) fn turn(&mut self, e: usize) {
+        self.log.push(Deed::Turn(e));
+        self.backward[e] = !self.backward[e];
     }
 
     /// A vertex has become active, or inactive.
@@ -280,6 +296,7 @@ impl State {
         while self.log.len() > mark {
             match self.log.pop() {
                 Some(Deed::Flip(e)) => self.apply(model, e),
+                Some(Deed::Turn(e)) => self.backward[e] = !self.backward[e],
                 Some(Deed::Place(room)) => self.set_room(model, room, false),
                 Some(Deed::Clear(room)) => self.set_room(model, room, true),
                 Some(Deed::Move(from, to)) => self.shift(model, to, from),
@@ -313,7 +330,7 @@ impl State {
     }
 
     /// As an answer.
-    pub(super) fn network(&self) -> Network {
+    pub(super) fn network(&self, model: &Model<'_>) -> Network {
         let sorted = |subset: &Subset| {
             let mut items = subset.items().to_vec();
             items.sort_unstable();
@@ -323,6 +340,7 @@ impl State {
             active: self.active.clone(),
             rooms: sorted(&self.rooms.placed),
             sinks: sorted(&self.placed),
+            ways: self.decided_ways(model),
         }
     }
 
@@ -332,7 +350,13 @@ impl State {
             active,
             rooms,
             sinks,
+            ways,
         } = network;
+        for (e, &way) in ways.iter().enumerate() {
+            if way == Way::Forward || way == Way::Backward {
+                self.backward[e] = way == Way::Backward;
+            }
+        }
         // As many sinks are placed as the network has, or it were not valid.
         let left = self.placed.items().iter().filter(|v| !sinks.contains(v));
         let new = sinks.iter().filter(|&&v| !self.placed.contains(v));

@@ -9,16 +9,20 @@ use super::state::State;
 #[derive(Debug)]
 pub(super) struct Ways {
     pub(super) away: Vec<f64>,
-    queue: VecDeque<usize>,
-    waiting: Vec<bool>,
+    /// The way to each vertex from a sink; kept only where there are one-way
+    /// streets.
+    pub(super) from: Vec<f64>,
+    pub(super) queue: VecDeque<usize>,
+    pub(super) waiting: Vec<bool>,
 }
 
 /// What is measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Travel {
-    /// Sum over the charged edges of the way from the nearer end, islands left out.
+    /// Sum over the charged edges of the way from the nearer end, islands left
+    /// out; with one-way streets the mean of the ways out and in.
     pub(super) sum: f64,
-    /// Active edges that reach no sink.
+    /// Active edges that reach no sink, or that none reaches.
     pub(super) islands: usize,
 }
 
@@ -26,6 +30,10 @@ impl Ways {
     pub(super) fn new(model: &Model<'_>) -> Self {
         Self {
             away: model.base.clone(),
+            from: model
+                .turns
+                .as_ref()
+                .map_or_else(Vec::new, |t| t.base.clone()),
             queue: VecDeque::new(),
             waiting: vec![false; model.problem.vertices],
         }
@@ -39,6 +47,9 @@ impl Ways {
     /// changes once or twice, which is cheaper than keeping a heap.
     pub(super) fn measure(&mut self, model: &Model<'_>, state: &State) -> Travel {
         let problem = model.problem;
+        if let Some(turns) = &model.turns {
+            return self.measure_turns(model, turns, state);
+        }
         self.away.copy_from_slice(&model.base);
         for &e in state.charged.items() {
             for v in problem.ends[e] {
@@ -59,7 +70,7 @@ impl Ways {
             self.waiting[v] = false;
             let gone = self.away[v];
             for &(e, w) in model.around.of(v) {
-                let there = gone + problem.lengths[e];
+                let there = gone + problem.travel_cost(e);
                 if state.active[e] && there < self.away[w] {
                     self.away[w] = there;
                     if !self.waiting[w] {

@@ -19,7 +19,7 @@ pub(super) struct Walk<'m, 'p> {
     pub(super) ways: Ways,
     pub(super) dice: Dice,
     pub(super) fines: Fines,
-    finder: Finder,
+    pub(super) finder: Finder,
     /// The move in which each edge was added, so that it is not shoved away in it.
     added: Vec<u64>,
     pub(super) moves: u64,
@@ -52,6 +52,10 @@ impl<'m, 'p> Walk<'m, 'p> {
         let draw = self.dice.unit();
         if !self.state.rooms.bare.is_empty() {
             self.tile_bare();
+            return;
+        }
+        if !self.state.turnable.is_empty() && self.dice.chance(0.15) {
+            self.turn();
             return;
         }
         if let Some(room) = self.dice.pick(self.state.rooms.placed.items()) {
@@ -109,7 +113,7 @@ impl<'m, 'p> Walk<'m, 'p> {
         }
     }
 
-    fn manner(&mut self, breach: f64) -> Manner {
+    pub(super) fn manner(&mut self, breach: f64) -> Manner {
         let noise = [0.0, 0.5, 1.0, 3.0][self.dice.below(4)];
         Manner {
             noise,
@@ -119,11 +123,13 @@ impl<'m, 'p> Walk<'m, 'p> {
             reward: self.fines.rate(0) * self.dice.unit(),
             opening: self.fines.rate(5) * self.dice.unit(),
             reached: false,
+            heading: None,
+            through: false,
             pull: 3.0 * self.dice.unit(),
         }
     }
 
-    fn add(&mut self, e: usize) {
+    pub(super) fn add(&mut self, e: usize) {
         self.added[e] = self.moves;
         self.state.flip(self.model, e);
     }
@@ -165,7 +171,7 @@ impl<'m, 'p> Walk<'m, 'p> {
         }
         let ends = &self.model.problem.ends;
         let lost: Vec<usize> = (self.state.removable.items().iter())
-            .filter(|&&e| self.ways.away[ends[e][0]].is_infinite())
+            .filter(|&&e| self.ways.loses(self.model, &self.state, e))
             .copied()
             .collect();
         for e in lost {
@@ -220,6 +226,7 @@ impl<'m, 'p> Walk<'m, 'p> {
             return;
         };
         let edges = self.model.cycles.of(cycle);
+        self.point_cycle(edges);
         for &e in edges {
             if self.state.active[e] {
                 self.state.flip(self.model, e);
@@ -288,7 +295,10 @@ impl<'m, 'p> Walk<'m, 'p> {
     }
 
     /// Adds a path from a vertex to the network, over edges that are inactive.
-    fn path_from(&mut self, v: usize, besides: usize, manner: &Manner) -> bool {
+    pub(super) fn path_from(&mut self, v: usize, besides: usize, manner: &Manner) -> bool {
+        if self.model.turns.is_some() {
+            return self.path_one_way(v, besides, manner);
+        }
         let (model, away) = (self.model, &self.ways.away);
         let found = self
             .finder
@@ -303,6 +313,9 @@ impl<'m, 'p> Walk<'m, 'p> {
     /// if it is part of it, or if dead ends are allowed.
     fn ear_through(&mut self, v: usize, manner: &Manner) -> bool {
         const NOWHERE: usize = usize::MAX;
+        if self.model.turns.is_some() {
+            return self.loop_through(v, manner);
+        }
         let mark = self.state.mark();
         let inside = self.state.is_stop(v);
         if !self.path_from(v, NOWHERE, manner) {
@@ -331,6 +344,13 @@ impl<'m, 'p> Walk<'m, 'p> {
         let [a, b] = ends;
         let [near, far] = ends.map(|v| self.state.is_stop(v));
         self.add(e);
+        if self.model.turns.is_some() {
+            let done = self.join_ends(e, ends, [near, far], manner);
+            if !done {
+                self.state.undo(self.model, mark);
+            }
+            return done;
+        }
         let dead_ends = self.model.problem.dead_ends;
         // The first path must not end at the other end, or it were an island.
         let first = near || far && dead_ends || self.path_from(a, b, manner);
@@ -467,12 +487,12 @@ mod tests {
             let mut walk = Walk::new(&model, 7);
             let mut valid = 0;
             for k in 0..3000 {
-                let before = (walk.state.network(), walk.state.rooms.owner.clone());
+                let before = (walk.state.network(&model), walk.state.rooms.owner.clone());
                 let score = Score::of(&model, &walk.state, &mut walk.ways);
                 let mark = walk.state.mark();
                 walk.step();
                 let after = Score::of(&model, &walk.state, &mut walk.ways);
-                let network = walk.state.network();
+                let network = walk.state.network(&model);
                 let found = verify(&problem, &network);
                 assert_eq!(
                     after.is_valid(),
@@ -492,7 +512,7 @@ mod tests {
                     assert_eq!(again.faults, score.faults);
                     assert_eq!(
                         before,
-                        (walk.state.network(), walk.state.rooms.owner.clone())
+                        (walk.state.network(&model), walk.state.rooms.owner.clone())
                     );
                 } else {
                     walk.state.settle();

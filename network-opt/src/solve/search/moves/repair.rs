@@ -19,6 +19,9 @@ impl Walk<'_, '_> {
     pub(super) fn repair(&mut self, rounds: usize) -> bool {
         let mut any = false;
         for _ in 0..rounds {
+            if self.model.turns.is_some() && self.dice.chance(0.3) {
+                any |= self.join_island();
+            }
             let Some(fault) = self.fault() else {
                 return self.join_island() || any;
             };
@@ -130,6 +133,9 @@ impl Walk<'_, '_> {
     fn join_island(&mut self) -> bool {
         if self.ways.measure(self.model, &self.state).islands == 0 {
             return false;
+        }
+        if self.model.turns.is_some() {
+            return self.join_lost();
         }
         let lost: Vec<usize> = (0..self.model.problem.vertices)
             .filter(|&v| self.state.degree[v] > 0 && self.ways.away[v].is_infinite())

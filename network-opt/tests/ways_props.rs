@@ -1,0 +1,588 @@
+//! Laws of one-way streets and speeds: the programs, the search and the checker
+//! against trying all networks with all directions, and what must not change.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use network_opt::design::{
+    cost, distances, distances_from, verify, EdgeState, Network, Pattern, PatternKind, Problem,
+    Tessellation, Violation, Way,
+};
+use network_opt::formulate::{longest_ways, prepare, Fate, Formulated, Formulation};
+use network_opt::geo_types::coord;
+use network_opt::mip::Microlp;
+use network_opt::solve::{Ended, Exact, Limits, NetworkSolver, Race, Search, Windows};
+use network_opt::DesignError;
+use proptest::prelude::*;
+use std::time::Duration;
+
+fn config(cases: u32) -> ProptestConfig {
+    let long = std::env::var_os("URBAN_LAYOUT_LONG").is_some();
+    ProptestConfig::with_cases(if long { cases * 20 } else { cases })
+}
+
+/// Solvers hold rows to a millionth; sums here have some tens of terms of size
+/// one to ten.
+const CLOSE: f64 = 1e-4;
+/// Networks that are tried at most.
+const MOST: usize = 20_000;
+
+fn grid(columns: usize, rows: usize) -> Tessellation {
+    let wide = columns + 1;
+    let points =
+        (0..wide * (rows + 1)).map(|k| coord! { x: (k % wide) as f64, y: (k / wide) as f64 });
+    let corners = (0..columns * rows).map(|k| k / columns * wide + k % columns);
+    let faces = corners.map(|a| vec![a, a + 1, a + wide + 1, a + wide]);
+    Tessellation::new(points.collect(), faces.collect()).unwrap()
+}
+
+/// What random problems are made of.
+#[derive(Clone, Debug)]
+struct Recipe {
+    size: (usize, usize),
+    states: Vec<u8>,
+    ways: Vec<u8>,
+    costs: Vec<(u8, u8)>,
+    vertices: Vec<u8>,
+    range: usize,
+    dead_ends: bool,
+    close: u8,
+    weights: (u8, u8),
+}
+
+fn recipe() -> impl Strategy<Value = Recipe> {
+    let size = prop_oneof![Just((2, 1)), Just((3, 1)), Just((2, 2)), Just((1, 1))];
+    let edges = (
+        prop::collection::vec(0_u8..100, 12),
+        prop::collection::vec(0_u8..100, 12),
+        prop::collection::vec((0_u8..5, 0_u8..5), 12),
+    );
+    let rest = (
+        prop::collection::vec(0_u8..100, 9),
+        0_usize..3,
+        any::<bool>(),
+        0_u8..4,
+        (0_u8..3, 0_u8..4),
+    );
+    (size, edges, rest).prop_map(|(size, edges, rest)| Recipe {
+        size,
+        states: edges.0,
+        ways: edges.1,
+        costs: edges.2,
+        vertices: rest.0,
+        range: rest.1,
+        dead_ends: rest.2,
+        close: rest.3,
+        weights: rest.4,
+    })
+}
+
+impl Recipe {
+    fn problem(&self) -> Problem {
+        let mesh = grid(self.size.0, self.size.1);
+        let (edges, vertices) = (mesh.edges().len(), mesh.points().len());
+        let states = (0..edges).map(|e| match self.states[e % 12] {
+            0..=11 => EdgeState::Given,
+            12..=15 => EdgeState::Required,
+            16..=19 => EdgeState::Closed,
+            _ => EdgeState::Open,
+        });
+        let ways = (0..edges).map(|e| match self.ways[e % 12] {
+            0..=34 => Way::Both,
+            35..=44 => Way::Forward,
+            45..=54 => Way::Backward,
+            _ => Way::Either,
+        });
+        let sinks = (0..vertices).map(|v| self.vertices[v % 9] < 15);
+        let mut sinks: Vec<bool> = sinks.collect();
+        sinks[usize::from(self.vertices[0]) % vertices] = true;
+        let quarter = |k: u8| 1.0 + f64::from(k) / 4.0;
+        let patterns = match self.close {
+            2 => Some(Some(2.0)),
+            3 => Some(None),
+            _ => None,
+        };
+        let patterns = patterns.map_or_else(Vec::new, |cost| {
+            let pairs = mesh.opposite_edges();
+            let close = |pair: [usize; 2]| Pattern {
+                kind: PatternKind::TooClose,
+                active: pair.to_vec(),
+                inactive: Vec::new(),
+                cost,
+            };
+            pairs.into_iter().map(close).collect()
+        });
+        Problem {
+            vertices,
+            ends: mesh.edges().to_vec(),
+            lengths: (0..edges).map(|e| quarter(self.costs[e % 12].0)).collect(),
+            travel_costs: (0..edges).map(|e| quarter(self.costs[e % 12].1)).collect(),
+            states: states.collect(),
+            ways: ways.collect(),
+            sinks,
+            coverage: (0..vertices).map(|v| mesh.ball(v, self.range)).collect(),
+            required_vertices: (0..vertices)
+                .filter(|v| self.vertices[v % 9] >= 94)
+                .collect(),
+            dead_ends: self.dead_ends,
+            patterns,
+            length_weight: [1.0, 5.0, 1.0][usize::from(self.weights.0)],
+            travel_weight: [0.0, 1.0, 0.001, 4.0][usize::from(self.weights.1)],
+            ..Problem::default()
+        }
+    }
+}
+
+/// All networks with all directions, valid or not; none if there are too many.
+fn all_networks(problem: &Problem) -> Option<Vec<Network>> {
+    let mut found = vec![(Vec::new(), Vec::new())];
+    for e in 0..problem.edges() {
+        let (may, must) = match problem.states[e] {
+            EdgeState::Open => (true, false),
+            EdgeState::Given | EdgeState::Required => (true, true),
+            EdgeState::Closed => (false, false),
+        };
+        let mut choices = Vec::new();
+        if !must {
+            choices.push((false, problem.way(e)));
+        }
+        if may {
+            match problem.way(e) {
+                Way::Either => choices.extend([(true, Way::Forward), (true, Way::Backward)]),
+                way => choices.push((true, way)),
+            }
+        }
+        if found.len() * choices.len() > MOST {
+            return None;
+        }
+        let extended = found.iter().flat_map(|(active, ways)| {
+            choices.iter().map(move |&(on, way)| {
+                let (mut active, mut ways): (Vec<bool>, Vec<Way>) = (active.clone(), ways.clone());
+                active.push(on);
+                ways.push(way);
+                (active, ways)
+            })
+        });
+        found = extended.collect();
+    }
+    let open = problem.has_choice_of_ways();
+    let network = |(active, ways)| Network {
+        active,
+        ways: if open { ways } else { Vec::new() },
+        ..Network::default()
+    };
+    Some(found.into_iter().map(network).collect())
+}
+
+fn all_valid(problem: &Problem) -> Option<Vec<Network>> {
+    let mut all = all_networks(problem)?;
+    all.retain(|network| verify(problem, network).is_empty());
+    Some(all)
+}
+
+fn best(problem: &Problem, valid: &[Network]) -> f64 {
+    let costs = valid.iter().map(|n| cost(problem, n).objective);
+    costs.fold(f64::INFINITY, f64::min)
+}
+
+/// The problem and a network of it with all directions reversed.
+fn reversed(problem: &Problem, network: &Network) -> (Problem, Network) {
+    let turn = |ways: &[Way]| ways.iter().map(|way| way.reversed()).collect();
+    let problem = Problem {
+        ways: turn(&problem.ways),
+        ..problem.clone()
+    };
+    let network = Network {
+        ways: turn(&network.ways),
+        ..network.clone()
+    };
+    (problem, network)
+}
+
+/// Whether all active vertices are within reach of each other with all sinks
+/// taken for one, by the closure of a matrix.
+fn is_strong(problem: &Problem, network: &Network) -> bool {
+    let n = problem.vertices;
+    let at = |v: usize| if problem.sinks[v] { n } else { v };
+    let mut reach = vec![vec![false; n + 1]; n + 1];
+    let mut active = vec![false; n + 1];
+    active[n] = true;
+    (0..=n).for_each(|v| reach[v][v] = true);
+    for (e, &[a, b]) in problem.ends.iter().enumerate() {
+        if network.active[e] {
+            let way = network.ways.get(e).copied().unwrap_or(problem.way(e));
+            active[at(a)] = true;
+            active[at(b)] = true;
+            reach[at(a)][at(b)] |= matches!(way, Way::Both | Way::Forward);
+            reach[at(b)][at(a)] |= matches!(way, Way::Both | Way::Backward);
+        }
+    }
+    for k in 0..=n {
+        for a in 0..=n {
+            for b in 0..=n {
+                reach[a][b] |= reach[a][k] && reach[k][b];
+            }
+        }
+    }
+    let all = (0..=n).filter(|&v| active[v]);
+    all.clone().all(|a| all.clone().all(|b| reach[a][b]))
+}
+
+const PROGRAMS: [Formulation; 2] = [Formulation::Flow, Formulation::TravelFlow];
+
+proptest! {
+    #![proptest_config(config(50))]
+
+    /// Every valid network meets every row of both programs and costs there what
+    /// the checker says; nothing that is valid was decided away before.
+    #[test]
+    fn no_program_cuts_off_a_valid_network(recipe in recipe()) {
+        let problem = recipe.problem();
+        let Some(valid) = all_valid(&problem) else { return Ok(()) };
+        let fates = prepare(&problem);
+        let bounds = longest_ways(&problem, 1e6);
+        for formulation in PROGRAMS {
+            let formulated = Formulated::new(&problem, formulation, None).unwrap();
+            prop_assert!(valid.is_empty() || !formulated.contradicts());
+            for network in &valid {
+                for (e, &fate) in fates.iter().enumerate() {
+                    prop_assert!(fate == Fate::Open || (fate == Fate::On) == network.active[e]);
+                }
+                let values = formulated.solution(network);
+                let violation = formulated.program().violation(&values);
+                prop_assert!(violation < CLOSE, "{formulation:?} by {violation}");
+                prop_assert_eq!(&formulated.network(&values), network);
+                let cost = cost(&problem, network);
+                let is = match formulation {
+                    Formulation::Flow => problem.length_weight * cost.length + cost.patterns,
+                    _ => cost.objective,
+                };
+                let said = formulated.program().objective(&values);
+                prop_assert!((said - is).abs() < CLOSE, "{formulation:?}: {said} for {is}");
+                let step = formulated.program().step();
+                prop_assert!(step == 0.0 || (is / step - (is / step).round()).abs() < 1e-6);
+                if problem.has_one_way() {
+                    let away = [distances(&problem, network), distances_from(&problem, network)];
+                    for (&way, bound) in away.iter().flat_map(|away| away.iter().zip(&bounds)) {
+                        prop_assert!(way.is_infinite() || way <= bound + 1e-9);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The optimum of the program is that of all networks, however it is solved,
+    /// and where there is no network that is what is said.
+    #[test]
+    fn brute_force_agrees_with_the_program(recipe in recipe()) {
+        let problem = recipe.problem();
+        let Some(valid) = all_valid(&problem) else { return Ok(()) };
+        let least = best(&problem, &valid);
+        let limits = Limits { deadline: None, ..Limits::default() };
+        for formulation in [Formulation::Recommended, Formulation::TravelFlow] {
+            let exact = Exact { formulation, ..Exact::new(Microlp) };
+            let found = exact.solve(&problem, None, &limits, &mut |_| true).unwrap();
+            match found.network {
+                None => {
+                    prop_assert!(valid.is_empty(), "none found, of {}", valid.len());
+                    prop_assert_eq!(found.ended, Ended::Infeasible);
+                }
+                Some(network) => {
+                    prop_assert_eq!(verify(&problem, &network), vec![]);
+                    prop_assert!((found.cost.objective - least).abs() < CLOSE,
+                        "{formulation:?}: {} for {least}", found.cost.objective);
+                    prop_assert_eq!(found.ended, Ended::Proven);
+                }
+            }
+        }
+        for formulation in [Formulation::SingleSink, Formulation::Paper] {
+            let refused = Formulated::new(&problem, formulation, None);
+            prop_assert_eq!(refused.is_err(), problem.has_one_way());
+            if let Err(error) = refused {
+                let is_option = matches!(error, DesignError::BadOption { .. });
+                prop_assert!(is_option);
+                prop_assert!(error.to_string().contains("TravelFlow"));
+            }
+        }
+    }
+
+    /// With all sinks taken for one a valid network is strongly connected, and
+    /// what is strongly connected has no fault of reachability.
+    #[test]
+    fn valid_networks_are_strongly_connected(recipe in recipe(), picks in prop::collection::vec(any::<usize>(), 30)) {
+        let problem = recipe.problem();
+        let Some(all) = all_networks(&problem) else { return Ok(()) };
+        for network in picks.iter().map(|&k| &all[k % all.len()]) {
+            let found = verify(&problem, network);
+            let faults = found.iter().filter(|v| matches!(v,
+                Violation::Island { .. } | Violation::OnlyIn { .. } | Violation::OnlyOut { .. }
+                | Violation::NoWayIn { .. } | Violation::NoWayOut { .. }));
+            prop_assert_eq!(faults.count() == 0, is_strong(&problem, network), "{:?}", found);
+        }
+    }
+
+    /// A street that becomes two-way, or whose direction is left open, never makes
+    /// a network worse, nor the optimum.
+    #[test]
+    fn one_way_streets_never_improve(recipe in recipe(), edge in any::<prop::sample::Index>()) {
+        let problem = recipe.problem();
+        let Some(valid) = all_valid(&problem) else { return Ok(()) };
+        let e = edge.index(problem.edges());
+        let mut freer = problem.clone();
+        freer.ways[e] = Way::Both;
+        for network in &valid {
+            let mut same = network.clone();
+            if let Some(way) = same.ways.get_mut(e) {
+                *way = Way::Both;
+            }
+            if !freer.has_choice_of_ways() {
+                same.ways.clear();
+            }
+            prop_assert_eq!(verify(&freer, &same), vec![]);
+            let (one, two) = (cost(&problem, network), cost(&freer, &same));
+            // Sums of a dozen ways in one order.
+            prop_assert!(two.objective <= one.objective + 1e-9);
+        }
+        let mut open = problem.clone();
+        if matches!(problem.ways[e], Way::Forward | Way::Backward) {
+            open.ways[e] = Way::Either;
+        }
+        if let Some(all) = all_valid(&open) {
+            prop_assert!(best(&open, &all) <= best(&problem, &valid) + 1e-9);
+        }
+    }
+
+    /// All directions reversed, a network is as good as before; and the names of
+    /// vertices, and which end of an edge is the first, do not matter.
+    #[test]
+    fn directions_and_names_are_symmetric(recipe in recipe(), shift in 0_usize..9, flips in prop::collection::vec(any::<bool>(), 12)) {
+        let problem = recipe.problem();
+        let Some(valid) = all_valid(&problem) else { return Ok(()) };
+        let n = problem.vertices;
+        let rename = |v: usize| (v + shift) % n;
+        for network in valid.iter().take(50) {
+            let (back, there) = reversed(&problem, network);
+            prop_assert_eq!(verify(&back, &there), vec![]);
+            let (a, b) = (cost(&problem, network), cost(&back, &there));
+            // Halves of quarters: no rounding but by the weight of travel.
+            prop_assert!((a.objective - b.objective).abs() < 1e-9);
+            prop_assert_eq!(distances(&problem, network), distances_from(&back, &there));
+
+            let mut named = problem.clone();
+            let mut same = network.clone();
+            for v in 0..n {
+                named.sinks[rename(v)] = problem.sinks[v];
+            }
+            named.coverage.iter_mut().flatten().for_each(|v| *v = rename(*v));
+            named.required_vertices.iter_mut().for_each(|v| *v = rename(*v));
+            for e in 0..problem.edges() {
+                named.ends[e] = problem.ends[e].map(rename);
+                if flips[e % 12] {
+                    named.ends[e].reverse();
+                    named.ways[e] = named.ways[e].reversed();
+                    if let Some(way) = same.ways.get_mut(e) {
+                        *way = way.reversed();
+                    }
+                }
+            }
+            prop_assert_eq!(verify(&named, &same), vec![]);
+            prop_assert!((cost(&named, &same).objective - a.objective).abs() < 1e-9);
+        }
+    }
+
+    /// What says that all streets are two-way, and that travel costs what edges
+    /// are long, is what says nothing.
+    #[test]
+    fn two_way_problems_are_as_ever(recipe in recipe(), seed in 0_u64..100) {
+        let mut plain = recipe.problem();
+        plain.ways.clear();
+        plain.travel_costs.clear();
+        let mut said = plain.clone();
+        said.ways = vec![Way::Both; plain.edges()];
+        said.travel_costs.clone_from(&plain.lengths);
+        prop_assert_eq!(prepare(&plain), prepare(&said));
+        let Some(valid) = all_valid(&plain) else { return Ok(()) };
+        for formulation in [Formulation::Flow, Formulation::TravelFlow, Formulation::SingleSink, Formulation::Paper] {
+            let [a, b] = [&plain, &said].map(|p| Formulated::new(p, formulation, Some(longest_ways(p, 50.0))).unwrap());
+            prop_assert_eq!(format!("{:?}", a.program()), format!("{:?}", b.program()));
+        }
+        for network in valid.iter().take(20) {
+            prop_assert_eq!(cost(&plain, network), cost(&said, network));
+            prop_assert_eq!(distances(&said, network), distances_from(&said, network));
+        }
+        let limits = Limits { deadline: None, seed, ..Limits::default() };
+        let search = Search { moves: Some(500) };
+        let [a, b] = [&plain, &said].map(|p| search.solve(p, None, &limits, &mut |_| true).unwrap());
+        prop_assert_eq!(a.network, b.network);
+        prop_assert_eq!(a.bound, b.bound);
+    }
+
+    /// Speeds: all formulations price travel by what it costs, and twice the speed
+    /// everywhere is half the travel.
+    #[test]
+    fn speeds_are_priced_by_every_program(recipe in recipe()) {
+        let mut problem = recipe.problem();
+        problem.ways.clear();
+        let Some(valid) = all_valid(&problem) else { return Ok(()) };
+        let worst = valid.iter().map(|n| cost(&problem, n).objective).fold(0.0, f64::max);
+        for formulation in [Formulation::TravelFlow, Formulation::SingleSink] {
+            let longest = longest_ways(&problem, worst);
+            let formulated = Formulated::new(&problem, formulation, Some(longest)).unwrap();
+            for network in &valid {
+                let values = formulated.solution(network);
+                prop_assert!(formulated.program().violation(&values) < CLOSE);
+                let (said, is) = (formulated.program().objective(&values), cost(&problem, network).objective);
+                prop_assert!((said - is).abs() < CLOSE, "{formulation:?}: {said} for {is}");
+            }
+        }
+        let mut fast = problem.clone();
+        fast.travel_costs.iter_mut().for_each(|c| *c /= 2.0);
+        for network in &valid {
+            let (slow, fast) = (cost(&problem, network), cost(&fast, network));
+            prop_assert_eq!(slow.length, fast.length);
+            prop_assert_eq!(slow.travel, 2.0 * fast.travel);
+            let known = cost(&problem, network).objective;
+            for (v, bound) in longest_ways(&problem, known).into_iter().enumerate() {
+                let way = distances(&problem, network)[v];
+                prop_assert!(way.is_infinite() || way <= bound);
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(config(30))]
+
+    /// What the search reports is valid, no better than the best, and on meshes as
+    /// small as these the best; its bound is one.
+    #[test]
+    fn the_search_keeps_directions(recipe in recipe(), seed in 0_u64..1000) {
+        let problem = recipe.problem();
+        let Some(valid) = all_valid(&problem) else { return Ok(()) };
+        let least = best(&problem, &valid);
+        let mut objective = f64::INFINITY;
+        for more in 0..3 {
+            let limits = Limits { deadline: None, seed: seed + 1000 * more, ..Limits::default() };
+            let search = Search { moves: Some(20_000) };
+            let found = search.solve(&problem, None, &limits, &mut |_| true).unwrap();
+            if let Some(network) = &found.network {
+                prop_assert_eq!(verify(&problem, network), vec![]);
+                prop_assert_eq!(found.cost, cost(&problem, network));
+                objective = objective.min(found.cost.objective);
+            }
+            if found.ended == Ended::Infeasible {
+                prop_assert!(valid.is_empty());
+            } else {
+                prop_assert!(found.bound <= least + 1e-6, "{} over {least}", found.bound);
+            }
+            // It is a search, and this law is about enough of it.
+            if objective <= least + 1e-6 || valid.is_empty() {
+                break;
+            }
+        }
+        prop_assert!(objective <= least + 1e-6, "{objective} for {least}");
+    }
+
+    /// Windows and races too end with what is best, from any start.
+    #[test]
+    fn windows_and_races_know_directions(recipe in recipe(), start in any::<prop::sample::Index>()) {
+        let problem = recipe.problem();
+        let Some(valid) = all_valid(&problem) else { return Ok(()) };
+        prop_assume!(!valid.is_empty());
+        let least = best(&problem, &valid);
+        let start = &valid[start.index(valid.len())];
+        let limits = Limits { deadline: Some(Duration::from_secs(60)), ..Limits::default() };
+        let windows = Windows { size: 4, ..Windows::new(Microlp) };
+        let found = windows.solve(&problem, Some(start), &limits, &mut |_| true).unwrap();
+        prop_assert!((found.cost.objective - least).abs() < CLOSE);
+        prop_assert_eq!(verify(&problem, &found.network.unwrap()), vec![]);
+        let found = Race::new(Microlp).solve(&problem, None, &limits, &mut |_| true).unwrap();
+        prop_assert!((found.cost.objective - least).abs() < CLOSE);
+        prop_assert_eq!(verify(&problem, &found.network.unwrap()), vec![]);
+    }
+}
+
+/// A street to a block and one way around it, from a single sink: both ways
+/// round are as good, and the street alone is no answer.
+#[test]
+fn a_block_is_driven_around() {
+    let mut problem = Problem {
+        vertices: 5,
+        ends: vec![[0, 1], [1, 2], [2, 3], [3, 4], [4, 1]],
+        lengths: vec![1.0; 5],
+        states: vec![EdgeState::Open; 5],
+        sinks: (0..5).map(|v| v == 0).collect(),
+        required_vertices: vec![3],
+        dead_ends: true,
+        ways: vec![
+            Way::Both,
+            Way::Either,
+            Way::Either,
+            Way::Either,
+            Way::Either,
+        ],
+        length_weight: 1.0,
+        travel_weight: 1.0,
+        ..Problem::default()
+    };
+    let limits = Limits::default();
+    let found = Exact::new(Microlp)
+        .solve(&problem, None, &limits, &mut |_| true)
+        .unwrap();
+    // Length 5. Around the block out 4, 3, 2, 1 from the heads, in 1 to 4 to the
+    // tails: a mean of 2.5 each.
+    assert_eq!((found.cost.length, found.cost.travel), (5.0, 10.0));
+    let ways = found.network.unwrap().ways;
+    assert!(ways == problem_ways(Way::Forward) || ways == problem_ways(Way::Backward));
+    // The street to the block too must not be one-way.
+    problem.ways[0] = Way::Either;
+    let found = Exact::new(Microlp)
+        .solve(&problem, None, &limits, &mut |_| true)
+        .unwrap();
+    assert_eq!((found.network, found.ended), (None, Ended::Infeasible));
+}
+
+/// Between two vertices: one street has to be two-way, two may be one-way, and
+/// nothing is wrong with no edge at all.
+#[test]
+fn the_least_problems_are_solved() {
+    let street = |count: usize| Problem {
+        vertices: 2,
+        ends: vec![[0, 1]; count],
+        lengths: vec![1.0; count],
+        states: vec![EdgeState::Open; count],
+        sinks: vec![true, false],
+        required_vertices: vec![1],
+        dead_ends: true,
+        ways: vec![Way::Either; count],
+        length_weight: 1.0,
+        travel_weight: 1.0,
+        ..Problem::default()
+    };
+    let limits = Limits {
+        deadline: None,
+        ..Limits::default()
+    };
+    let search = Search { moves: Some(2000) };
+    for solver in [&Exact::new(Microlp) as &dyn NetworkSolver, &search] {
+        let solve =
+            |problem: &Problem| solver.solve(problem, None, &limits, &mut |_| true).unwrap();
+        assert_eq!(solve(&street(0)).network, None);
+        assert_eq!(solve(&street(1)).network, None);
+        let two = solve(&street(2));
+        // One leads out from a way of 1, the other comes back to one.
+        assert_eq!((two.cost.length, two.cost.travel), (2.0, 0.5 + 0.5));
+        let ways = two.network.unwrap().ways;
+        assert_eq!(ways[0], ways[1].reversed());
+        let empty = Problem {
+            required_vertices: vec![],
+            ..street(2)
+        };
+        let found = solve(&empty);
+        assert_eq!((found.cost.objective, found.ended), (0.0, Ended::Proven));
+        assert_eq!(found.network.unwrap().ways, [Way::Either; 2]);
+    }
+}
+
+fn problem_ways(around: Way) -> Vec<Way> {
+    [vec![Way::Both], vec![around; 4]].concat()
+}
