@@ -349,10 +349,10 @@ fn decide(
         for v in (0..problem.vertices).filter(|&v| !problem.dead_ends && !may_sink[v]) {
             let mut usable = around.of(v).iter().filter(|&&(e, _)| fates[e] != Fate::Off);
             if let (Some(&(e, _)), None) = (usable.next(), usable.next()) {
-                if *fate == Fate::On {
+                if fates[e] == Fate::On {
                     return Err(Hopeless);
                 }
-                *fate = Fate::Off;
+                fates[e] = Fate::Off;
                 changed = true;
             }
         }
