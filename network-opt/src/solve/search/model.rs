@@ -136,15 +136,15 @@ impl<'p> Model<'p> {
         let stray = (0..edges)
             .filter(|&e| given[e] && lost(e, &base, turns.as_ref().map(|t| &t.base)))
             .collect();
-        for e in 0..edges {
+        for (e, fate) in fates.iter_mut().enumerate() {
             let ends = problem.ends[e];
             let far = |way: &[f64]| ends.iter().any(|&v| way[v].is_infinite());
             // What reaches no sink is an island; what none reaches is no use.
             if far(&least) || turns.as_ref().is_some_and(|t| far(&t.least)) {
-                if fates[e] == Fate::On {
+                if *fate == Fate::On {
                     return Err(Hopeless);
                 }
-                fates[e] = Fate::Off;
+                *fate = Fate::Off;
             }
         }
         let floor = floors(problem, &least, turns.as_ref());
