@@ -4,6 +4,7 @@ pub use geo_types;
 
 pub mod design;
 mod error;
+pub mod floor;
 pub mod formulate;
 pub mod levels;
 pub mod mesh;

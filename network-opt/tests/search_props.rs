@@ -139,6 +139,7 @@ fn floor() -> impl Strategy<Value = Problem> {
             problem.rooms = Some(Rooms {
                 placements,
                 covered,
+                ..Rooms::default()
             });
             problem.coverage.clear();
             problem

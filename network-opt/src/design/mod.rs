@@ -16,7 +16,9 @@ mod spec;
 mod tessellation;
 mod verify;
 
-pub use problem::{EdgeState, Network, Pattern, PatternKind, Placement, Problem, Rooms};
+pub use problem::{
+    EdgeState, Network, Pattern, PatternKind, Placement, Problem, RoomCount, RoomWish, Rooms,
+};
 pub use spec::{Coverage, Feature, Rim, Sinks, Specification};
 pub use tessellation::Tessellation;
-pub use verify::{cost, distances, verify, Cost, Violation};
+pub use verify::{cost, distances, full_cost, verify, Cost, Violation};

@@ -78,6 +78,18 @@ pub enum Violation {
         /// Its number.
         room: usize,
     },
+    /// Too few rooms of a kind, or too many.
+    Count {
+        /// The position in [`Rooms::counts`](super::Rooms::counts).
+        count: usize,
+        /// How many there are.
+        rooms: usize,
+    },
+    /// A demand on rooms that is not met.
+    Wish {
+        /// The position in [`Rooms::wishes`](super::Rooms::wishes).
+        wish: usize,
+    },
 }
 
 impl fmt::Display for Violation {
@@ -98,6 +110,10 @@ impl fmt::Display for Violation {
             Self::NoDoor { room } => write!(f, "room {room} is on no corridor"),
             Self::Crossed { room, edge } => write!(f, "corridor {edge} runs through room {room}"),
             Self::NoRoom { room } => write!(f, "there is no room {room}"),
+            Self::Count { count, rooms } => {
+                write!(f, "{rooms} rooms are not what count {count} asks for")
+            }
+            Self::Wish { wish } => write!(f, "demand {wish} on rooms is not met"),
         }
     }
 }
@@ -115,6 +131,8 @@ pub struct Cost {
     pub travel: f64,
     /// What patterns cost that are not forbidden.
     pub patterns: f64,
+    /// What wishes about rooms cost that are not granted.
+    pub wishes: f64,
 }
 
 /// The way from each vertex to its nearest sink over active edges; infinite
@@ -194,7 +212,37 @@ pub fn cost(problem: &Problem, active: &[bool]) -> Cost {
         length,
         travel,
         patterns,
+        wishes: 0.0,
     }
+}
+
+/// What a network costs with its rooms: [`cost`], and the wishes about rooms
+/// that are not granted. Demands that are not met cost nothing here.
+///
+/// # Panics
+///
+/// If the network has not one entry an edge.
+#[must_use]
+pub fn full_cost(problem: &Problem, network: &Network) -> Cost {
+    let mut found = cost(problem, &network.active);
+    if let Some(rooms) = &problem.rooms {
+        let placed = placed(rooms, network);
+        let denied = rooms.wishes.iter().filter(|w| w.is_denied(|r| placed[r]));
+        found.wishes = denied.filter_map(|w| w.cost).sum();
+        found.objective += found.wishes;
+    }
+    found
+}
+
+/// Whether each room that may be placed is.
+fn placed(rooms: &super::Rooms, network: &Network) -> Vec<bool> {
+    let mut placed = vec![false; rooms.placements.len()];
+    for &room in &network.rooms {
+        if let Some(placed) = placed.get_mut(room) {
+            *placed = true;
+        }
+    }
+    placed
 }
 
 pub(super) fn occurs(pattern: &super::Pattern, active: &[bool]) -> bool {
@@ -307,6 +355,19 @@ fn rooms(problem: &Problem, network: &Network, found: &mut Vec<Violation>) {
     for (face, (&count, &wanted)) in covers.iter().zip(&rooms.covered).enumerate() {
         if count != usize::from(wanted) {
             found.push(Violation::Tiling { face, rooms: count });
+        }
+    }
+    let placed = placed(rooms, network);
+    let is_placed = |r: usize| placed[r];
+    for (count, wanted) in rooms.counts.iter().enumerate() {
+        let rooms = wanted.rooms.iter().filter(|&&r| is_placed(r)).count();
+        if rooms < wanted.least || wanted.most.is_some_and(|most| rooms > most) {
+            found.push(Violation::Count { count, rooms });
+        }
+    }
+    for (wish, wanted) in rooms.wishes.iter().enumerate() {
+        if wanted.cost.is_none() && wanted.is_denied(is_placed) {
+            found.push(Violation::Wish { wish });
         }
     }
 }
@@ -434,6 +495,7 @@ mod tests {
                 room(&[1], &[], &[1, 3, 5, 6]),
             ],
             covered: vec![true, true],
+            ..Rooms::default()
         });
         problem.check().expect("fits together");
         let with = |rooms: &[usize], edges: &[usize]| {

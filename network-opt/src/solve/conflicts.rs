@@ -27,6 +27,10 @@ pub enum Constraints {
     Routes,
     /// That rooms tile the floor, on corridors.
     Rooms,
+    /// That there are so many rooms of a kind.
+    RoomCounts,
+    /// What rooms are demanded to be beside.
+    RoomWishes,
     /// That all is within reach of a sink: without it every vertex is one.
     Connectivity,
 }
@@ -82,11 +86,25 @@ pub fn conflicts<M: MipSolver>(
     solver: &M,
     limits: &Limits,
 ) -> Result<Option<Conflict>, DesignError> {
+    conflicts_by(problem, &Exact::new(solver), limits)
+}
+
+/// As [`conflicts`], by any solver: one that finds networks but proves little,
+/// such as [`Search`](super::Search), answers by what it finds.
+///
+/// # Errors
+///
+/// As [`NetworkSolver::solve`].
+pub fn conflicts_by(
+    problem: &Problem,
+    solver: &dyn NetworkSolver,
+    limits: &Limits,
+) -> Result<Option<Conflict>, DesignError> {
     problem.check()?;
     let mut complete = true;
     let mut possible = |problem: &Problem| -> Result<bool, DesignError> {
         // Any network will do, and the shortest is the easiest to look for.
-        let asked = Problem {
+        let mut asked = Problem {
             length_weight: 1.0,
             travel_weight: 0.0,
             patterns: (problem.patterns.iter())
@@ -95,9 +113,11 @@ pub fn conflicts<M: MipSolver>(
                 .collect(),
             ..problem.clone()
         };
-        let exact = Exact::new(solver);
+        if let Some(rooms) = &mut asked.rooms {
+            rooms.wishes.retain(|wish| wish.cost.is_none());
+        }
         let mut found = false;
-        let outcome = exact.solve(&asked, None, limits, &mut |progress| {
+        let outcome = solver.solve(&asked, None, limits, &mut |progress| {
             found = progress.best.is_some();
             !found
         })?;
@@ -153,6 +173,14 @@ fn families(problem: &Problem) -> Vec<Constraints> {
         (!problem.dead_ends, Constraints::DeadEnds),
         (!problem.routes.is_empty(), Constraints::Routes),
         (problem.rooms.is_some(), Constraints::Rooms),
+        (
+            (problem.rooms.iter()).any(|r| !r.counts.is_empty()),
+            Constraints::RoomCounts,
+        ),
+        (
+            (problem.rooms.iter()).any(|r| r.wishes.iter().any(|w| w.cost.is_none())),
+            Constraints::RoomWishes,
+        ),
         (true, Constraints::Connectivity),
     ];
     let plain = plain
@@ -187,6 +215,10 @@ fn without(problem: &Problem, families: &[Constraints]) -> Problem {
             }
             Constraints::Routes => rest.routes.clear(),
             Constraints::Rooms => rest.rooms = None,
+            Constraints::RoomCounts => rest.rooms.iter_mut().for_each(|r| r.counts.clear()),
+            Constraints::RoomWishes => rest.rooms.iter_mut().for_each(|r| {
+                r.wishes.retain(|wish| wish.cost.is_some());
+            }),
             Constraints::Connectivity => rest.sinks.iter_mut().for_each(|sink| *sink = true),
         }
     }

@@ -4,7 +4,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::{Ended, Limits, Outcome, Progress, Watch};
-use crate::design::{cost, verify, Cost, Network, Problem};
+use crate::design::{full_cost, verify, Cost, Network, Problem};
 use crate::error::DesignError;
 
 /// What a solver has found, and whom it tells.
@@ -84,7 +84,7 @@ impl<'p, 'w> Record<'p, 'w> {
         if network.active.len() != self.problem.edges() {
             return false;
         }
-        let found = cost(self.problem, &network.active);
+        let found = full_cost(self.problem, &network);
         let better =
             (self.best.as_ref()).is_none_or(|(_, known)| found.objective < known.objective - 1e-9);
         if !better || !verify(self.problem, &network).is_empty() {

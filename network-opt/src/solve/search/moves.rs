@@ -16,6 +16,8 @@ enum Fault {
     Cut(usize),
     Crossed(usize),
     Shut(usize),
+    Count(usize),
+    Wish(usize),
 }
 
 /// A state with all that its moves need.
@@ -63,8 +65,15 @@ impl<'m, 'p> Walk<'m, 'p> {
         }
         if let Some(room) = self.dice.pick(self.state.rooms.placed.items()) {
             if self.dice.chance(0.3) {
-                let count = 2 + self.dice.below(4);
-                self.retile(room, count);
+                match self.dice.pick(self.state.rooms.denied.items()) {
+                    Some(wish) if self.dice.chance(0.3) => {
+                        self.grant(wish);
+                    }
+                    _ => {
+                        let count = 2 + self.dice.below(4);
+                        self.retile(room, count);
+                    }
+                }
                 self.repair(2);
                 return;
             }
@@ -364,6 +373,8 @@ impl<'m, 'p> Walk<'m, 'p> {
                     self.retile(room, count)
                 }
                 Fault::Shut(room) => self.open_room(room, &manner),
+                Fault::Count(count) => self.even(count),
+                Fault::Wish(wish) => self.grant(wish),
             };
             if mended && forced {
                 self.shove();
@@ -388,6 +399,8 @@ impl<'m, 'p> Walk<'m, 'p> {
             dice.pick(state.cut.items()).map(Fault::Cut),
             dice.pick(state.rooms.crossed.items()).map(Fault::Crossed),
             dice.pick(state.rooms.shut.items()).map(Fault::Shut),
+            dice.pick(state.rooms.wrong.items()).map(Fault::Count),
+            dice.pick(state.rooms.unmet.items()).map(Fault::Wish),
         ];
         let kinds = faults.iter().flatten().count();
         if kinds == 0 {
@@ -566,6 +579,7 @@ mod tests {
             rooms: rooms.then(|| Rooms {
                 placements,
                 covered: vec![true; 16],
+                ..Rooms::default()
             }),
             length_weight: 1.0,
             travel_weight: 0.5,

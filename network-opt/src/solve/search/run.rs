@@ -8,7 +8,7 @@ use super::anneal::{Anneal, Best};
 use super::bound::Bound;
 use super::model::Model;
 use super::Search;
-use crate::design::{cost, verify, Cost, Network, Problem};
+use crate::design::{full_cost, verify, Cost, Network, Problem};
 use crate::error::DesignError;
 use crate::solve::{Ended, Limits, Outcome, Progress, Watch};
 
@@ -201,7 +201,7 @@ impl Lead<'_> {
             "counters of the search do not agree with the checker"
         );
         if valid {
-            let cost = cost(self.problem, &best.network.active);
+            let cost = full_cost(self.problem, &best.network);
             let known = self.bests[k].as_ref();
             if known.is_none_or(|(_, known)| cost.objective < known.objective) {
                 self.bests[k] = Some((best.network.clone(), cost));

@@ -5,14 +5,15 @@ use super::state::State;
 use super::ways::Ways;
 
 /// Kinds of faults that are counted.
-pub(super) const KINDS: usize = 8;
+pub(super) const KINDS: usize = 10;
 
 /// Objective and faults of a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Score {
     pub(super) objective: f64,
     /// Uncovered rows, dead ends, island edges, forbidden patterns, routes
-    /// without a path, rooms without a door, crossed rooms, bare faces.
+    /// without a path, rooms without a door, crossed rooms, bare faces, rooms too
+    /// few or too many, demands on rooms.
     pub(super) faults: [usize; KINDS],
 }
 
@@ -22,7 +23,10 @@ impl Score {
         let problem = model.problem;
         let travelled = problem.travel_weight * travel.sum;
         Self {
-            objective: problem.length_weight * state.length + travelled + state.pattern_cost,
+            objective: problem.length_weight * state.length
+                + travelled
+                + state.pattern_cost
+                + state.rooms.wish_cost,
             faults: [
                 state.missing.len(),
                 state.dead_ends.len(),
@@ -32,6 +36,8 @@ impl Score {
                 state.rooms.shut.len(),
                 state.rooms.crossed.len(),
                 state.rooms.bare.len(),
+                state.rooms.off,
+                state.rooms.unmet.len(),
             ],
         }
     }
@@ -51,7 +57,7 @@ pub(super) struct Fines {
 impl Fines {
     pub(super) fn new(unit: f64) -> Self {
         Self {
-            rates: [2.0, 3.0, 2.0, 4.0, 4.0, 4.0, 4.0, 8.0].map(|k| k * unit),
+            rates: [2.0, 3.0, 2.0, 4.0, 4.0, 4.0, 4.0, 8.0, 4.0, 4.0].map(|k| k * unit),
             least: 0.5 * unit,
         }
     }
