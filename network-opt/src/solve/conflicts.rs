@@ -35,6 +35,31 @@ pub enum Constraints {
     Connectivity,
 }
 
+impl Constraints {
+    /// The family in words.
+    #[must_use]
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Coverage => "that places are covered",
+            Self::RequiredVertices => "places that must be passed",
+            Self::RequiredEdges => "edges that must be active",
+            Self::ClosedEdges => "edges that must not be",
+            Self::DeadEnds => "no dead ends",
+            Self::Pattern(PatternKind::TooClose) => "none too close",
+            Self::Pattern(PatternKind::ZigZag) => "no zig-zags",
+            Self::Pattern(PatternKind::TJunction) => "no T-junctions",
+            Self::Pattern(PatternKind::Branch) => "no branches",
+            Self::Pattern(PatternKind::DeadEnd) => "no dead ends, one by one",
+            Self::Pattern(PatternKind::Facade) => "no corridor along the facade",
+            Self::Routes => "routes",
+            Self::Rooms => "rooms that tile the floor, each on a corridor",
+            Self::RoomCounts => "how many rooms of a kind there are",
+            Self::RoomWishes => "what rooms must be beside",
+            Self::Connectivity => "that all is within reach of a sink",
+        }
+    }
+}
+
 /// What makes a problem infeasible.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
