@@ -123,8 +123,10 @@ impl FloorSpecification {
                 cost: Some(cost),
             }));
         }
-        let pass = places.iter().filter(|p| p.faces.is_empty() && !as_sinks);
-        problem.required_vertices.extend(pass.map(|p| p.landing));
+        // An entrance, or a lift, that no corridor leads to is none.
+        let bare = places.iter().filter(|p| p.faces.is_empty());
+        problem.required_vertices.extend(&entrances);
+        problem.required_vertices.extend(bare.map(|p| p.landing));
         let here: Vec<Coord<f64>> = entrances.iter().map(|&v| mesh.points()[v]).collect();
         let mut rooms = self.rooms(mesh, &middles, &free, &windows, &here)?;
         for (place, shaft) in places.iter_mut().zip(shafts) {

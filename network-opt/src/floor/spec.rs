@@ -230,7 +230,8 @@ pub struct FloorSpecification {
     /// Default value: those of [`FloorSpecification::default`], which tile any
     /// mesh of quads.
     pub rooms: Vec<Room>,
-    /// Where people come in, on the boundary: sinks.
+    /// Where people come in, on the boundary: sinks, each of which a corridor
+    /// leads to.
     ///
     /// Default value: none. A storey without any and without shafts has one in
     /// the middle of its longest straight facade.
@@ -247,7 +248,7 @@ pub struct FloorSpecification {
     pub irregular: bool,
     /// Corridors along the facade: each edge an occurrence.
     ///
-    /// Default value: 1 each.
+    /// Default value: 2 each.
     pub facade: Feature,
     /// Corridors that end in the open.
     ///
@@ -288,7 +289,7 @@ impl Default for FloorSpecification {
             shafts: ShaftRole::Auto,
             obstacles: Vec::new(),
             irregular: true,
-            facade: Feature::Weighted(1.0),
+            facade: Feature::Weighted(2.0),
             dead_ends: Feature::Weighted(3.0),
             branches: Feature::Free,
             zig_zags: Feature::Weighted(5.0),

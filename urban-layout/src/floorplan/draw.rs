@@ -17,6 +17,9 @@ use super::FloorplanSpec;
 use crate::plane::{cross, dist, dot, left, nearest_on, signed_area, unit};
 use crate::site::boolean::{area, difference, intersection, total_area, union};
 
+/// Overlap of strips that go on straight, metres.
+const LAP: f64 = 1e-3;
+
 /// A storey ready to be drawn; local metres.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawing {
@@ -321,6 +324,24 @@ impl Strips<'_> {
         }
     }
 
+    /// How far an edge's strip is to reach beyond a vertex where the corridor
+    /// goes on nearly straight: else rounding leaves a crack between the two.
+    fn lap(&self, e: usize, v: usize) -> f64 {
+        let points = self.mesh.points();
+        let towards = |w: usize| unit(points[w] - points[v]);
+        let [a, b] = self.mesh.edges()[e];
+        let back = towards(a + b - v);
+        let goes_on =
+            self.mesh.around(v).iter().any(|&(other, w)| {
+                other != e && self.active[other] && dot(towards(w), back) < -0.8
+            });
+        if goes_on {
+            LAP
+        } else {
+            0.0
+        }
+    }
+
     fn polygons(&self) -> Vec<Polygon<f64>> {
         let points = self.mesh.points();
         let mut found = Vec::new();
@@ -344,6 +365,8 @@ impl Strips<'_> {
             let across = left(along);
             // Through the facade, which need not be at a right angle.
             let through = self.mesh.faces_of(e).len() > 1;
+            from = from - along * self.lap(e, a);
+            to = to + along * self.lap(e, b);
             if through && self.entrances.contains(&a) {
                 from = from - along * (0.6 * self.width);
             }
@@ -361,13 +384,15 @@ impl Strips<'_> {
             let mut around: Vec<(usize, usize)> = self.mesh.around(v).to_vec();
             around.retain(|&(e, _)| self.active[e]);
             let n = around.len();
-            for k in 0..if n > 1 { n } else { 0 } {
+            if n < 2 {
+                continue;
+            }
+            for k in 0..n {
                 let ((e0, w0), (e1, w1)) = (around[k], around[(k + 1) % n]);
                 let (d0, d1) = (unit(points[w0] - points[v]), unit(points[w1] - points[v]));
                 // Counter-clockwise from one to the next: outside of a bend.
                 let turn = cross(d0, d1);
-                let reflex = turn < -1e-9 || turn.abs() <= 1e-9 && n == 2 && dot(d0, d1) > 0.0;
-                if !reflex {
+                if turn >= -1e-9 {
                     continue;
                 }
                 let h0 = self.reach(e0, v)[0];

@@ -8,7 +8,8 @@ use super::canvas::{Anchor, Canvas, Lettering, PathData, Transform};
 use super::font;
 use crate::floorplan::draw::{kinds, Door, Drawing, DrawnRoom};
 use crate::floorplan::FloorplanStudy;
-use crate::plane::{extent, inner_point, left};
+use crate::network::inside;
+use crate::plane::{cross, dist, extent, left, unit};
 use crate::site::Site;
 
 /// Longer side of a storey on the sheet, sheet units (200 mm), the space around
@@ -255,7 +256,7 @@ impl Page<'_> {
         let end = ends[1];
         // From the tip to the far jamb; the sheet's y points down, so what is
         // counter-clockwise on the floor is clockwise here.
-        let sweep = u8::from(crate::plane::cross(door.inwards, door.along) < 0.0);
+        let sweep = u8::from(cross(door.inwards, door.along) < 0.0);
         let mut data = String::new();
         let _ = write!(
             data,
@@ -277,55 +278,55 @@ impl Page<'_> {
         );
     }
 
-    /// Name and size of a room, as large as it may be, within.
+    /// Name and size of a room, as large as it may be, where it is widest.
     fn label(&mut self, room: &DrawnRoom) {
-        let rings: Vec<Vec<Coord<f64>>> = std::iter::once(room.outline.exterior())
-            .chain(room.outline.interiors())
-            .map(|ring| ring.0[..ring.0.len().saturating_sub(1)].to_vec())
-            .collect();
-        let Some(at) = inner_point(&rings) else {
-            return;
-        };
-        let chord = |y: f64| -> f64 {
-            let mut low = f64::NEG_INFINITY;
-            let mut high = f64::INFINITY;
-            for ring in &rings {
-                for (i, &a) in ring.iter().enumerate() {
-                    let b = ring[(i + 1) % ring.len()];
-                    if (a.y > y) != (b.y > y) {
-                        let x = a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
-                        if x <= at.x {
-                            low = low.max(x);
-                        } else {
-                            high = high.min(x);
-                        }
-                    }
-                }
-            }
-            2.0 * (at.x - low).min(high - at.x)
-        };
         let size = format!("{:.0} m\u{b2}", room.area);
-        let size = if font::can_draw(&size) {
-            size
-        } else {
-            format!("{:.0} m2", room.area)
-        };
         let width = font::width(&room.name, 1.0).max(font::width(&size, 1.0));
-        // Two lines of text, each with space above: 3.4 capitals high.
-        let mut cap = 0.016 * LONG_SIDE / self.to.scale;
-        let fits = |cap: f64| {
-            let rows = [-1.4, -0.5, 0.5, 1.4].map(|k| chord(at.y + k * cap));
-            rows.iter()
-                .all(|w| w.is_finite() && *w >= width * cap * 1.1)
+        let (low, high) = extent(&room.outline);
+        let most = 0.011 * LONG_SIDE / self.to.scale;
+        // Two lines of text in capitals of 1 are a box 4 high.
+        let cap = |at: Coord<f64>| {
+            let reach = |d: Coord<f64>| clearance(&room.outline, at, d);
+            let half = |d: Coord<f64>| reach(d).min(reach(d * -1.0));
+            // The least over a few directions of what the box has there.
+            let corner = unit(Coord {
+                x: 0.55 * width,
+                y: 2.0,
+            });
+            let mirrored = Coord {
+                x: corner.x,
+                y: -corner.y,
+            };
+            let long = (0.55 * width).hypot(2.0);
+            let across = half(Coord { x: 1.0, y: 0.0 }) / (0.55 * width);
+            let up = half(Coord { x: 0.0, y: 1.0 }) / 2.0;
+            let aslant = half(corner).min(half(mirrored)) / long;
+            across.min(up).min(aslant).min(most)
         };
-        while cap > 0.003 * LONG_SIDE / self.to.scale && !fits(cap) {
-            cap *= 0.9;
+        let mut best: Option<(f64, f64, Coord<f64>)> = None;
+        let middle = (low + high) * 0.5;
+        for k in 0..169 {
+            let share = |k: i32| (f64::from(k) + 0.5) / 13.0;
+            let at = Coord {
+                x: low.x + (high.x - low.x) * share(k % 13),
+                y: low.y + (high.y - low.y) * share(k / 13),
+            };
+            if !inside(&room.outline, at) {
+                continue;
+            }
+            // The largest, and of those the most central.
+            let (cap, off) = (cap(at), dist(at, middle));
+            if best.is_none_or(|(c, o, _)| cap > 1.02 * c || cap > 0.98 * c && off < o) {
+                best = Some((cap, off, at));
+            }
         }
-        if !fits(cap) {
+        let Some((cap, _, at)) = best else {
+            return;
+        };
+        let (centre, cap) = (self.to.place(at), cap * self.to.scale);
+        if cap < 0.0022 * LONG_SIDE {
             return;
         }
-        let centre = self.to.place(at);
-        let cap = cap * self.to.scale;
         for (text, dy, colour) in [(room.name.as_str(), -0.3, INK), (size.as_str(), 1.4, FAINT)] {
             let style = Lettering {
                 cap: if dy > 0.0 { 0.8 * cap } else { cap },
@@ -381,12 +382,12 @@ impl Page<'_> {
             let colour = COLOURS[kind.unwrap_or(0) % COLOURS.len()];
             let style = format!("fill=\"{colour}\" stroke=\"{INK}\" stroke-width=\"15\"");
             self.canvas.rect(left, y - 230.0, 380.0, 240.0, &style);
-            let words = format!("{count} {name}, {area:.0} m2");
+            let words = format!("{count} {name}, {area:.0} m\u{b2}");
             self.letters(&words, left + 520.0, y, 210.0, INK);
             y += LINE;
         }
         let words = format!(
-            "corridors {:.0} m2, {:.0} % of the floor",
+            "corridors {:.0} m\u{b2}, {:.0} % of the floor",
             drawing.corridor_area(),
             100.0 * drawing.corridor_area() / drawing.area().max(1e-9)
         );
@@ -413,4 +414,19 @@ impl Page<'_> {
         ));
         self.letters("N", north.x + 200.0, north.y, 210.0, INK);
     }
+}
+
+/// How far it is from a point inside a polygon to its boundary in a direction.
+fn clearance(polygon: &Polygon<f64>, at: Coord<f64>, direction: Coord<f64>) -> f64 {
+    let rings = std::iter::once(polygon.exterior()).chain(polygon.interiors());
+    let hits = rings.flat_map(|ring| ring.0.windows(2)).filter_map(|w| {
+        let side = w[1] - w[0];
+        let turn = cross(direction, side);
+        let (t, s) = (
+            cross(w[0] - at, side) / turn,
+            cross(w[0] - at, direction) / turn,
+        );
+        (turn != 0.0 && t >= 0.0 && (0.0..=1.0).contains(&s)).then_some(t)
+    });
+    hits.fold(f64::INFINITY, f64::min)
 }
