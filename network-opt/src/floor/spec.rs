@@ -316,7 +316,7 @@ fn default_rooms() -> Vec<Room> {
         room("office", &["##/##"], 0.0, Wish::Weighted(0.5)),
         room("team", &["###/###"], 0.0, Wish::Weighted(0.5)),
         room("corner", &["###/##."], 0.2, Wish::Weighted(0.5)),
-        room("meeting", &["##/#.", "###"], 0.6, Wish::Free),
+        room("meeting", &["##/#.", "###"], 1.2, Wish::Free),
         room("store", &["#", "##"], 2.5, Wish::Free),
     ]
 }

@@ -14,6 +14,7 @@ use network_opt::design::{distances, Tessellation};
 use network_opt::floor::Storey;
 
 use super::FloorplanSpec;
+use crate::network::inside;
 use crate::plane::{cross, dist, dot, left, nearest_on, signed_area, unit};
 use crate::site::boolean::{area, difference, intersection, total_area, union};
 
@@ -150,9 +151,14 @@ pub fn draw(
             away[a].min(away[b])
         };
         doors.sort_by(|&a, &b| nearer(a).total_cmp(&nearer(b)).then(a.cmp(&b)));
-        let door = doors
-            .iter()
-            .find_map(|&e| strips.door(e, &placement.faces, &outline, spec.door_width, nearer(e)))
+        // Where its leaf has room to swing, if there is such a place.
+        let door = [true, false]
+            .into_iter()
+            .flat_map(|deep| doors.iter().map(move |&e| (e, deep)))
+            .find_map(|(e, deep)| {
+                let wanted = (spec.door_width, deep);
+                strips.door(e, &placement.faces, &outline, wanted, nearer(e))
+            })
             .or_else(|| {
                 let e = *doors.first()?;
                 strips.any_door(e, &outline, spec.door_width, nearer(e))
@@ -413,13 +419,14 @@ impl Strips<'_> {
     }
 
     /// A door of a room in the wall along an edge, if there is wall enough: in
-    /// its middle, or else to one side.
+    /// its middle, or else to one side; `deep` if the room must have space for
+    /// it to open.
     fn door(
         &self,
         e: usize,
         faces: &[usize],
         outline: &Polygon<f64>,
-        width: f64,
+        (width, deep): (f64, bool),
         away: f64,
     ) -> Option<Door> {
         let [a, b] = self.mesh.edges()[e];
@@ -440,6 +447,13 @@ impl Strips<'_> {
                 let at = from + (to - from) * t + inwards * wall;
                 // With a hand's breadth of wall on both sides.
                 let reach = 0.5 * share * width + 0.1;
+                let swing = |side: f64| {
+                    let leaf = at + along * (side * width) + inwards * (share * width);
+                    inside(outline, leaf)
+                };
+                if deep && !(swing(0.5 * share) && swing(-0.5 * share)) {
+                    continue;
+                }
                 if (on_wall(outline, at - along * reach) && on_wall(outline, at + along * reach))
                     && on_wall(outline, at)
                 {

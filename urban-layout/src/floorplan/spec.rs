@@ -30,6 +30,17 @@ pub struct FloorplanSpec {
     pub storey: Vec<FloorSpecification>,
 }
 
+/// A fault of the text in one line: its own message is a picture of several.
+fn fault(text: &str, error: &toml::de::Error) -> Error {
+    let before = error.span().and_then(|span| text.get(..span.start));
+    let line = before.map_or(1, |before| before.matches('\n').count() + 1);
+    let message: Vec<&str> = error.message().lines().map(str::trim).collect();
+    Error::input(format!(
+        "the specification, line {line}: {}",
+        message.join("; ")
+    ))
+}
+
 impl FloorplanSpec {
     /// Reads a specification in TOML.
     ///
@@ -67,8 +78,7 @@ impl FloorplanSpec {
     /// # Ok::<(), urban_layout::Error>(())
     /// ```
     pub fn from_toml(text: &str) -> Result<Self> {
-        let mut spec: Self =
-            toml::from_str(text).map_err(|e| Error::input(format!("the specification: {e}")))?;
+        let mut spec: Self = toml::from_str(text).map_err(|e| fault(text, &e))?;
         let usual = FloorSpecification::default().rooms;
         if !spec.room.is_empty() {
             for storey in spec.storey.iter_mut().filter(|s| s.rooms == usual) {

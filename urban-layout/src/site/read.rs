@@ -44,6 +44,8 @@ pub(crate) fn read(text: &str, units: Units, wanted: &str) -> Result<Site> {
         raw.extend(feature.polygons()?);
     }
     let (parts, frame) = parts(&raw, degrees, &mut warnings)?;
+    // Of a building nobody expects parcels.
+    warnings.retain(|w| wanted == "site" || w.kind != WarningKind::TinySite);
 
     let mut given = Given::new(frame, &parts);
     let site: Vec<usize> = land.iter().map(|feature| feature.index).collect();

@@ -261,13 +261,7 @@ impl Page<'_> {
         let _ = write!(
             data,
             "M{:.0} {:.0}L{:.0} {:.0}A{radius:.0} {radius:.0} 0 0 {} {:.0} {:.0}",
-            from.x,
-            from.y,
-            tip.x,
-            tip.y,
-            1 - sweep,
-            end.x,
-            end.y
+            from.x, from.y, tip.x, tip.y, sweep, end.x, end.y
         );
         self.canvas.path(
             &data,
@@ -290,15 +284,15 @@ impl Page<'_> {
             let half = |d: Coord<f64>| reach(d).min(reach(d * -1.0));
             // The least over a few directions of what the box has there.
             let corner = unit(Coord {
-                x: 0.55 * width,
+                x: 0.6 * width,
                 y: 2.0,
             });
             let mirrored = Coord {
                 x: corner.x,
                 y: -corner.y,
             };
-            let long = (0.55 * width).hypot(2.0);
-            let across = half(Coord { x: 1.0, y: 0.0 }) / (0.55 * width);
+            let long = (0.6 * width).hypot(2.0);
+            let across = half(Coord { x: 1.0, y: 0.0 }) / (0.6 * width);
             let up = half(Coord { x: 0.0, y: 1.0 }) / 2.0;
             let aslant = half(corner).min(half(mirrored)) / long;
             across.min(up).min(aslant).min(most)
