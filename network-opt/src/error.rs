@@ -276,6 +276,12 @@ pub enum DesignError {
         /// What is wrong, and where.
         what: String,
     },
+    /// A room, or a floor, is not what it should be.
+    #[error("the floor is not what it should be: {what}")]
+    BadFloor {
+        /// What is wrong, where, and what to do.
+        what: String,
+    },
     /// An option is out of its range.
     #[error("an option is out of its range: {what}")]
     BadOption {

@@ -5,6 +5,7 @@ pub use geo_types;
 pub mod design;
 mod dice;
 mod error;
+pub mod floor;
 pub mod formulate;
 pub mod levels;
 pub mod mesh;

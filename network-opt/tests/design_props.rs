@@ -234,6 +234,7 @@ fn rooms(mesh: &Tessellation, draws: &[u8]) -> Rooms {
     Rooms {
         placements,
         covered: (0..faces).map(|f| draws[f % draws.len()] >= 10).collect(),
+        ..Rooms::default()
     }
 }
 

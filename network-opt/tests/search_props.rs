@@ -149,6 +149,7 @@ fn floor() -> impl Strategy<Value = Problem> {
             problem.rooms = Some(Rooms {
                 placements,
                 covered,
+                ..Rooms::default()
             });
             problem.coverage.clear();
             problem

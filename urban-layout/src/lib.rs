@@ -27,6 +27,7 @@ pub mod check;
 pub mod design;
 mod error;
 pub mod field;
+pub mod floorplan;
 mod inset;
 pub mod io;
 pub mod layout;

@@ -104,6 +104,7 @@ impl Instance {
                     border: room.border,
                 })
                 .collect(),
+            ..Rooms::default()
         });
         let coverage = if rooms.is_none() {
             let balls = (0..mesh.points().len()).map(|v| mesh.ball(v, self.coverage_hops));

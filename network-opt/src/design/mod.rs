@@ -25,14 +25,16 @@ mod ways;
 pub use one_way::OneWay;
 pub use partition::{check_partition, partition, partition_around};
 pub use paths::{paths_between, PathOptions};
-pub use placed::{cost_of, PlacedSinks};
-pub use problem::{EdgeState, Network, Pattern, PatternKind, Placement, Problem, Rooms};
+pub use placed::PlacedSinks;
+pub use problem::{
+    EdgeState, Network, Pattern, PatternKind, Placement, Problem, RoomCount, RoomWish, Rooms,
+};
 pub use route::{Route, RouteKind};
 pub use spec::{
     Across, Among, Coverage, Feature, Inside, Pairs, Parts, Place, Rim, Sinks, Specification,
     Traffic,
 };
 pub use tessellation::Tessellation;
-pub use verify::{cost, verify, Cost, Violation};
+pub use verify::{cost, cost_of, verify, Cost, Violation};
 pub use ways::{distances, distances_from, Streets, Way};
 pub(crate) use ways::{mean_way, ways_to, Heading};

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use super::problem::{Network, Problem};
-use super::verify::{cost, verify, Cost, Violation};
+use super::verify::{verify, Violation};
 
 /// Sinks that are to be placed: so many of the candidates become sinks, each
 /// of them on a street.
@@ -115,17 +115,6 @@ impl Problem {
         }
         possible
     }
-}
-
-/// What a network costs with the sinks that it chooses, valid or not: [`cost`]
-/// if there are none to choose.
-///
-/// # Panics
-///
-/// If the network has not one entry an edge.
-#[must_use]
-pub fn cost_of(problem: &Problem, network: &Network) -> Cost {
-    cost(&problem.settled(&network.sinks), network)
 }
 
 /// What is wrong with the sinks that a network chooses, and with the network

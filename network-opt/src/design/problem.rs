@@ -50,6 +50,8 @@ pub enum PatternKind {
     Branch,
     /// One edge alone at a vertex that is no sink.
     DeadEnd,
+    /// A corridor along the facade.
+    Facade,
 }
 
 impl PatternKind {
@@ -62,6 +64,7 @@ impl PatternKind {
             Self::TJunction => "T-junction",
             Self::Branch => "branch",
             Self::DeadEnd => "dead end",
+            Self::Facade => "corridor along the facade",
         }
     }
 }
@@ -80,15 +83,60 @@ pub struct Placement {
     pub border: Vec<usize>,
 }
 
+/// How many of some rooms there may be: the paper's "linear constraints" on the
+/// occurrences of room types (section 5.2).
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct RoomCount {
+    /// What is counted, in messages.
+    pub name: String,
+    /// The placements that count, each once.
+    pub rooms: Vec<usize>,
+    /// So many of them at least.
+    pub least: usize,
+    /// So many of them at most; `None` for any number.
+    pub most: Option<usize>,
+}
+
+/// A wish about rooms: if all of `when` are placed, one of `then` is wanted
+/// too.
+///
+/// With one room in `when` and those that share a wall with it in `then` this
+/// is "next to"; with `then` empty it is a room that is unwelcome where it is;
+/// with two in `when` and `then` empty, two that are unwelcome together.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct RoomWish {
+    /// Placements.
+    pub when: Vec<usize>,
+    /// Placements.
+    pub then: Vec<usize>,
+    /// What it costs if it is not granted; `None` demands it.
+    pub cost: Option<f64>,
+}
+
+impl RoomWish {
+    /// Whether it is not granted by these rooms.
+    #[must_use]
+    pub fn is_denied(&self, is_placed: impl Fn(usize) -> bool) -> bool {
+        self.when.iter().all(|&r| is_placed(r)) && !self.then.iter().any(|&r| is_placed(r))
+    }
+}
+
 /// Rooms, which take the place of coverage (the paper's section 5.2).
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default))]
 pub struct Rooms {
     /// All that may be placed.
     pub placements: Vec<Placement>,
     /// Whether each face is to be covered by exactly one room; the others are
     /// obstacles, covered by none.
     pub covered: Vec<bool>,
+    /// How many there may be.
+    pub counts: Vec<RoomCount>,
+    /// Which are wanted where, and beside which.
+    pub wishes: Vec<RoomWish>,
 }
 
 /// An integer program in the making: which edges of a mesh are active?
@@ -246,6 +294,29 @@ impl Problem {
                 .find(|&&f| f >= faces)
             {
                 return bad(format!("face {f} is named, of {faces}"));
+            }
+            let placements = rooms.placements.len();
+            let named = (rooms.wishes.iter())
+                .flat_map(|w| w.when.iter().chain(&w.then))
+                .chain(rooms.counts.iter().flat_map(|c| &c.rooms));
+            if let Some(r) = named.into_iter().find(|&&r| r >= placements) {
+                return bad(format!("placement {r} is named, of {placements}"));
+            }
+            for count in &rooms.counts {
+                let (name, least) = (&count.name, count.least);
+                if let Some(most) = count.most.filter(|&most| most < least) {
+                    return bad(format!("of {name:?} there are to be {least} to {most}"));
+                }
+                let mut once = count.rooms.clone();
+                once.sort_unstable();
+                once.dedup();
+                if once.len() < count.rooms.len() {
+                    return bad(format!("the count of {name:?} names a placement twice"));
+                }
+            }
+            let mut costs = rooms.wishes.iter().filter_map(|w| w.cost);
+            if let Some(cost) = costs.find(|c| !(*c >= 0.0 && c.is_finite())) {
+                return bad(format!("a wish costs {cost}; give 0 or more, or demand it"));
             }
         }
         let mut costs = self.routes.iter().filter_map(|r| r.cost);

@@ -120,6 +120,18 @@ pub enum Violation {
         /// The vertex.
         vertex: usize,
     },
+    /// Too few rooms of a kind, or too many.
+    Count {
+        /// The position in [`Rooms::counts`](super::Rooms::counts).
+        count: usize,
+        /// How many there are.
+        rooms: usize,
+    },
+    /// A demand on rooms that is not met.
+    Wish {
+        /// The position in [`Rooms::wishes`](super::Rooms::wishes).
+        wish: usize,
+    },
 }
 
 impl fmt::Display for Violation {
@@ -170,6 +182,10 @@ impl fmt::Display for Violation {
                 f,
                 "vertex {vertex} cannot be reached from a sink along streets in their direction"
             ),
+            Self::Count { count, rooms } => {
+                write!(f, "{rooms} rooms are not what count {count} asks for")
+            }
+            Self::Wish { wish } => write!(f, "demand {wish} on rooms is not met"),
         }
     }
 }
@@ -193,6 +209,9 @@ pub struct Cost {
     /// What routes cost that are not there and need not be.
     #[cfg_attr(feature = "serde", serde(default))]
     pub routes: f64,
+    /// What wishes about rooms cost that are not granted.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub wishes: f64,
 }
 
 /// What a network costs, valid or not. Patterns that are forbidden cost
@@ -240,7 +259,38 @@ pub fn cost<'n>(problem: &Problem, streets: impl Into<Streets<'n>>) -> Cost {
         travel,
         patterns,
         routes,
+        wishes: 0.0,
     }
+}
+
+/// What a network costs in all, valid or not: [`cost`] with the sinks that it
+/// chooses, and the wishes about rooms that are not granted. Demands that are
+/// not met cost nothing here.
+///
+/// # Panics
+///
+/// If the network has not one entry an edge.
+#[must_use]
+pub fn cost_of(problem: &Problem, network: &Network) -> Cost {
+    let mut found = cost(&problem.settled(&network.sinks), network);
+    if let Some(rooms) = &problem.rooms {
+        let placed = placed(rooms, network);
+        let denied = rooms.wishes.iter().filter(|w| w.is_denied(|r| placed[r]));
+        found.wishes = denied.filter_map(|w| w.cost).sum();
+        found.objective += found.wishes;
+    }
+    found
+}
+
+/// Whether each room that may be placed is.
+fn placed(rooms: &super::Rooms, network: &Network) -> Vec<bool> {
+    let mut placed = vec![false; rooms.placements.len()];
+    for &room in &network.rooms {
+        if let Some(placed) = placed.get_mut(room) {
+            *placed = true;
+        }
+    }
+    placed
 }
 
 pub(super) fn occurs(pattern: &super::Pattern, active: &[bool]) -> bool {
@@ -404,6 +454,19 @@ fn rooms(problem: &Problem, network: &Network, found: &mut Vec<Violation>) {
             found.push(Violation::Tiling { face, rooms: count });
         }
     }
+    let placed = placed(rooms, network);
+    let is_placed = |r: usize| placed[r];
+    for (count, wanted) in rooms.counts.iter().enumerate() {
+        let rooms = wanted.rooms.iter().filter(|&&r| is_placed(r)).count();
+        if rooms < wanted.least || wanted.most.is_some_and(|most| rooms > most) {
+            found.push(Violation::Count { count, rooms });
+        }
+    }
+    for (wish, wanted) in rooms.wishes.iter().enumerate() {
+        if wanted.cost.is_none() && wanted.is_denied(is_placed) {
+            found.push(Violation::Wish { wish });
+        }
+    }
 }
 
 #[cfg(test)]
@@ -532,6 +595,7 @@ mod tests {
                 room(&[1], &[], &[1, 3, 5, 6]),
             ],
             covered: vec![true, true],
+            ..Rooms::default()
         });
         problem.check().expect("fits together");
         let with = |rooms: &[usize], edges: &[usize]| {

@@ -97,9 +97,10 @@ pub struct Formulated<'p> {
     families: Vec<Family>,
     contradicts: bool,
     longest: Option<Vec<f64>>,
-    /// Columns before those of connectivity, travel and rooms: what they cost is
-    /// length and patterns.
-    plain: usize,
+    /// Columns before those of connectivity, travel and rooms, and the first of
+    /// rooms: what these but for those between cost is length, patterns and
+    /// wishes.
+    plain: [usize; 2],
 }
 
 /// Families with columns of their own.
@@ -201,6 +202,7 @@ impl<'p> Formulated<'p> {
             }
             Formulation::Paper => plain(Box::new(paper::add(&mut draft))),
         }
+        let room_columns = draft.program.columns().len();
         let rooms = rooms::add(&mut draft, tight).map(|rooms| {
             families.push(Family::Rooms(rooms));
             families.len() - 1
@@ -218,7 +220,7 @@ impl<'p> Formulated<'p> {
             families,
             contradicts: draft.contradicts,
             longest,
-            plain: plain_columns,
+            plain: [plain_columns, room_columns],
         })
     }
 
@@ -364,12 +366,13 @@ impl<'p> Formulated<'p> {
         self.program.row(row.low, row.high, row.terms);
     }
 
-    /// Adds a row: length, patterns and routes cost `low` at least and `high` at most,
+    /// Adds a row: length, patterns, routes and wishes cost `low` at least and `high` at most,
     /// by their weights. Patterns of [`Formulation::Paper`] are not counted.
     pub fn limit_length(&mut self, low: f64, high: f64) {
-        let columns = self.program.columns()[..self.plain].iter().enumerate();
+        let [before, after] = self.plain;
+        let columns = self.program.columns().iter().enumerate();
         let terms: Vec<(usize, f64)> = columns
-            .filter(|(_, c)| c.cost != 0.0)
+            .filter(|&(k, c)| c.cost != 0.0 && (k < before || k >= after))
             .map(|(k, c)| (k, c.cost))
             .collect();
         self.program.row(low, high, terms);
@@ -415,7 +418,16 @@ fn step(problem: &Problem, formulation: Formulation) -> f64 {
     };
     let patterns = fold(&mut problem.patterns.iter().filter_map(|p| p.cost));
     let routes = fold(&mut problem.routes.iter().filter_map(|r| r.cost));
-    let step = fold(&mut [problem.length_weight * length, travel, patterns, routes].into_iter());
+    let wishes = problem.rooms.iter().flat_map(|r| &r.wishes);
+    let wishes = fold(&mut wishes.filter_map(|w| w.cost));
+    let parts = [
+        problem.length_weight * length,
+        travel,
+        patterns,
+        routes,
+        wishes,
+    ];
+    let step = fold(&mut parts.into_iter());
     if step > 1e-5 {
         step
     } else {

@@ -27,11 +27,24 @@
 //! nothing. Where fractions of all rooms that hold a face are in Q the right
 //! hand side is 2. There are too many sets Q to write down; [`Rooms::separate`]
 //! finds those that a fractional solution violates.
+//!
+//! **Counts and wishes** are linear in the rooms. For each count
+//!
+//! least <= sum of R over the rooms that count <= most,   (20)
+//!
+//! and for each wish, with a column z in [0, 1] that costs what it costs to deny
+//! it, and none if it is demanded,
+//!
+//! sum of R over `when` - sum of R over `then` - z <= |when| - 1.   (21)
+//!
+//! z may be real, since the least that it can be is 0 or 1. A wish of one room,
+//! R <= sum of R over `then` + z, is as tight as a row can be.
 
 use std::collections::BTreeSet;
 
 use super::balls::cuts;
 use super::draft::{Draft, Fill, Known, Term};
+use crate::design::RoomWish;
 use crate::mip::Row;
 
 /// The columns of rooms, and what cuts are made of.
@@ -46,9 +59,12 @@ pub(super) struct Rooms {
     cuts: Vec<Vec<(Vec<usize>, f64)>>,
     /// Each edge.
     x: Vec<Term>,
+    /// Wishes that cost something, and their columns.
+    z: Vec<(usize, usize)>,
+    wishes: Vec<RoomWish>,
 }
 
-/// Adds rows (15) to (17), if the problem has rooms; (16) as the paper has it
+/// Adds rows (15) to (17), (20) and (21), if the problem has rooms; (16) as the paper has it
 /// unless `tight`.
 pub(super) fn add(draft: &mut Draft<'_>, tight: bool) -> Option<Rooms> {
     let rooms = draft.problem.rooms.as_ref()?;
@@ -99,6 +115,7 @@ pub(super) fn add(draft: &mut Draft<'_>, tight: bool) -> Option<Rooms> {
     // Where a sink may be placed they would need its column; there are few such
     // borders.
     let sinks = draft.problem.possible_sinks();
+    let z = wishes(draft, &r);
     let cuts = rooms.placements.iter().zip(&r).map(|(placement, &r)| {
         let ends = placement.border.iter().flat_map(|&e| draft.problem.ends[e]);
         let ball: BTreeSet<usize> = ends.collect();
@@ -114,7 +131,41 @@ pub(super) fn add(draft: &mut Draft<'_>, tight: bool) -> Option<Rooms> {
         r,
         holding,
         x: draft.x.clone(),
+        z,
+        wishes: rooms.wishes.clone(),
     })
+}
+
+/// Adds rows (20) and (21).
+fn wishes(draft: &mut Draft<'_>, r: &[Term]) -> Vec<(usize, usize)> {
+    let Some(rooms) = draft.problem.rooms.as_ref() else {
+        return Vec::new();
+    };
+    for count in &rooms.counts {
+        let most = count.most.map_or(f64::INFINITY, |most| most as f64);
+        let terms = count.rooms.iter().map(|&k| (r[k], 1.0));
+        draft.row(count.least as f64, most, terms.collect::<Vec<_>>());
+    }
+    let mut z = Vec::new();
+    for (w, wish) in rooms.wishes.iter().enumerate() {
+        // Each once: all of a room named twice is the room.
+        let once = |list: &[usize]| list.iter().copied().collect::<BTreeSet<_>>();
+        let (when, then) = (once(&wish.when), once(&wish.then));
+        let granted = !when.is_disjoint(&then) || when.iter().any(|&k| r[k] == Term::Off);
+        if granted || wish.cost == Some(0.0) {
+            continue;
+        }
+        let most = when.len() as f64 - 1.0;
+        let mut terms: Vec<_> = when.iter().map(|&k| (r[k], 1.0)).collect();
+        terms.extend(then.iter().map(|&k| (r[k], -1.0)));
+        if let Some(cost) = wish.cost {
+            let column = draft.program.real(cost, 1.0);
+            z.push((w, column));
+            terms.push((Term::Column(column), -1.0));
+        }
+        draft.row(f64::NEG_INFINITY, most, terms);
+    }
+    z
 }
 
 impl Rooms {
@@ -212,6 +263,16 @@ impl Fill for Rooms {
             if let Some(Term::Column(column)) = self.r.get(k) {
                 values[*column] = 1.0;
             }
+        }
+        let mut placed = vec![false; self.r.len()];
+        for &k in known.rooms {
+            if let Some(placed) = placed.get_mut(k) {
+                *placed = true;
+            }
+        }
+        for &(w, column) in &self.z {
+            let denied = self.wishes[w].is_denied(|k| placed[k]);
+            values[column] = f64::from(u8::from(denied));
         }
     }
 }

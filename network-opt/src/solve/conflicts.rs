@@ -31,6 +31,10 @@ pub enum Constraints {
     Across,
     /// That rooms tile the floor, on corridors.
     Rooms,
+    /// That there are so many rooms of a kind.
+    RoomCounts,
+    /// What rooms are demanded to be beside.
+    RoomWishes,
     /// That all is within reach of a sink: without it every vertex is one, and
     /// none is to be placed.
     Connectivity,
@@ -39,6 +43,35 @@ pub enum Constraints {
     PlacedSinks,
     /// That streets are one-way: without it traffic runs both ways everywhere.
     Directions,
+}
+
+impl Constraints {
+    /// The family in words.
+    #[must_use]
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Coverage => "that places are covered",
+            Self::RequiredVertices => "places that must be passed",
+            Self::RequiredEdges => "edges that must be active",
+            Self::ClosedEdges => "edges that must not be",
+            Self::DeadEnds => "no dead ends",
+            Self::Pattern(PatternKind::TooClose) => "none too close",
+            Self::Pattern(PatternKind::ZigZag) => "no zig-zags",
+            Self::Pattern(PatternKind::TJunction) => "no T-junctions",
+            Self::Pattern(PatternKind::Branch) => "no branches",
+            Self::Pattern(PatternKind::DeadEnd) => "no dead ends, one by one",
+            Self::Pattern(PatternKind::Facade) => "no corridor along the facade",
+            Self::Routes => "routes",
+            Self::Inside => "places inside that must be joined",
+            Self::Across => "places on the boundary that must be joined",
+            Self::PlacedSinks => "how many sinks are placed, each on a street",
+            Self::Directions => "one-way streets",
+            Self::Rooms => "rooms that tile the floor, each on a corridor",
+            Self::RoomCounts => "how many rooms of a kind there are",
+            Self::RoomWishes => "what rooms must be beside",
+            Self::Connectivity => "that all is within reach of a sink",
+        }
+    }
 }
 
 /// What makes a problem infeasible.
@@ -92,11 +125,25 @@ pub fn conflicts<M: MipSolver>(
     solver: &M,
     limits: &Limits,
 ) -> Result<Option<Conflict>, DesignError> {
+    conflicts_by(problem, &Exact::new(solver), limits)
+}
+
+/// As [`conflicts`], by any solver: one that finds networks but proves little,
+/// such as [`Search`](super::Search), answers by what it finds.
+///
+/// # Errors
+///
+/// As [`NetworkSolver::solve`].
+pub fn conflicts_by(
+    problem: &Problem,
+    solver: &dyn NetworkSolver,
+    limits: &Limits,
+) -> Result<Option<Conflict>, DesignError> {
     problem.check()?;
     let mut complete = true;
     let mut possible = |problem: &Problem| -> Result<bool, DesignError> {
         // Any network will do, and the shortest is the easiest to look for.
-        let asked = Problem {
+        let mut asked = Problem {
             length_weight: 1.0,
             travel_weight: 0.0,
             patterns: (problem.patterns.iter())
@@ -109,9 +156,11 @@ pub fn conflicts<M: MipSolver>(
                 .collect(),
             ..problem.clone()
         };
-        let exact = Exact::new(solver);
+        if let Some(rooms) = &mut asked.rooms {
+            rooms.wishes.retain(|wish| wish.cost.is_none());
+        }
         let mut found = false;
-        let outcome = exact.solve(&asked, None, limits, &mut |progress| {
+        let outcome = solver.solve(&asked, None, limits, &mut |progress| {
             found = progress.best.is_some();
             !found
         })?;
@@ -174,6 +223,14 @@ fn families(problem: &Problem) -> Vec<Constraints> {
         (needs(RouteKind::Across), Constraints::Across),
         (problem.placed.is_some(), Constraints::PlacedSinks),
         (problem.rooms.is_some(), Constraints::Rooms),
+        (
+            (problem.rooms.iter()).any(|r| !r.counts.is_empty()),
+            Constraints::RoomCounts,
+        ),
+        (
+            (problem.rooms.iter()).any(|r| r.wishes.iter().any(|w| w.cost.is_none())),
+            Constraints::RoomWishes,
+        ),
         (true, Constraints::Connectivity),
         (problem.has_one_way(), Constraints::Directions),
     ];
@@ -219,6 +276,10 @@ fn without(problem: &Problem, families: &[Constraints]) -> Problem {
             Constraints::PlacedSinks => rest = rest.eased().into_owned(),
             Constraints::Rooms => rest.rooms = None,
             Constraints::Directions => rest.ways.clear(),
+            Constraints::RoomCounts => rest.rooms.iter_mut().for_each(|r| r.counts.clear()),
+            Constraints::RoomWishes => rest.rooms.iter_mut().for_each(|r| {
+                r.wishes.retain(|wish| wish.cost.is_some());
+            }),
             Constraints::Connectivity => {
                 rest.sinks.iter_mut().for_each(|sink| *sink = true);
                 rest.placed = None;

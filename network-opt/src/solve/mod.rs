@@ -14,7 +14,7 @@ mod record;
 mod turns;
 mod window;
 
-pub use conflicts::{conflicts, Conflict, Constraints};
+pub use conflicts::{conflicts, conflicts_by, Conflict, Constraints};
 pub use exact::Exact;
 pub use race::Race;
 pub use search::Search;

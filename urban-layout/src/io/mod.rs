@@ -6,6 +6,7 @@
 //! the local metres in which all else works.
 
 mod coordinates;
+pub mod floorplan_geojson;
 pub mod frame;
 pub(crate) mod geojson;
 pub mod html;

@@ -11,6 +11,7 @@ mod canvas;
 mod field;
 mod field_map;
 mod field_sheet;
+mod floorplan;
 mod font;
 mod map;
 mod network;
@@ -28,6 +29,7 @@ use crate::site::Site;
 use canvas::{escaped, Canvas, Transform};
 pub use field::field_svg;
 pub use field_sheet::{field_sheet_svg, FieldPanel};
+pub use floorplan::floorplan_svg;
 pub use network::network_svg;
 pub use streamlines::{streamlines_svg, Paint, StreamlineSvgOptions};
 

@@ -1,7 +1,7 @@
 //! The site: the region to lay out and what is given on it, in local metres.
 
 mod access;
-mod boolean;
+pub(crate) mod boolean;
 mod boundary;
 mod contact;
 mod element;
@@ -125,7 +125,17 @@ impl Site {
     /// Whatever is wrong with the text and cannot be mended, by feature, ring and
     /// vertex; see [`Error::code`].
     pub fn from_geojson(text: &str, units: Units) -> Result<Self> {
-        read::read(text, units)
+        read::read(text, units, "site")
+    }
+
+    /// Reads a building from GeoJSON text: as [`Site::from_geojson`], but that
+    /// the land is the floor, and features of the kind `building` are it too.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Site::from_geojson`].
+    pub fn building_from_geojson(text: &str, units: Units) -> Result<Self> {
+        read::read(text, units, "building")
     }
 
     /// A site without anything on it, from a polygon in metres of any

@@ -31,12 +31,12 @@ const NORTHERNMOST: f64 = 85.0;
 
 type RawPart = (Place, RawPolygon);
 
-/// See [`Site::from_geojson`].
-pub(crate) fn read(text: &str, units: Units) -> Result<Site> {
+/// See [`Site::from_geojson`]; `wanted` is a kind that is the land besides `site`.
+pub(crate) fn read(text: &str, units: Units, wanted: &str) -> Result<Site> {
     let document = Document::parse(text)?;
     let degrees = in_degrees(&document, units)?;
     let mut warnings = Vec::new();
-    let land = land(&document, &mut warnings)?;
+    let land = land(&document, wanted, &mut warnings)?;
     let named = land.iter().find_map(|feature| feature.text("name"));
     let name = named.or_else(|| member(&document, "name"));
     let mut raw: Vec<RawPart> = Vec::new();
@@ -44,6 +44,8 @@ pub(crate) fn read(text: &str, units: Units) -> Result<Site> {
         raw.extend(feature.polygons()?);
     }
     let (parts, frame) = parts(&raw, degrees, &mut warnings)?;
+    // Of a building nobody expects parcels.
+    warnings.retain(|w| wanted == "site" || w.kind != WarningKind::TinySite);
 
     let mut given = Given::new(frame, &parts);
     let site: Vec<usize> = land.iter().map(|feature| feature.index).collect();
@@ -132,14 +134,18 @@ fn in_degrees(document: &Document, units: Units) -> Result<bool> {
 }
 
 /// The features that are the site.
-fn land<'a>(document: &'a Document, warnings: &mut Vec<Warning>) -> Result<Vec<&'a RawFeature>> {
+fn land<'a>(
+    document: &'a Document,
+    wanted: &str,
+    warnings: &mut Vec<Warning>,
+) -> Result<Vec<&'a RawFeature>> {
     let no_site = |reason: String| Err(SiteError::NoSite { reason }.into());
     let known =
         |kind: &str| matches!(kind, "road" | "street") || ElementKind::parse(kind).is_some();
     let named: Vec<&RawFeature> = document
         .features
         .iter()
-        .filter(|feature| feature.kind() == Some("site"))
+        .filter(|feature| matches!(feature.kind(), Some(kind) if kind == "site" || kind == wanted))
         .collect();
     if !named.is_empty() {
         return Ok(named);

@@ -203,6 +203,8 @@ fn quantum(problem: &crate::design::Problem) -> f64 {
     ];
     parts.extend(problem.patterns.iter().filter_map(|p| p.cost));
     parts.extend(problem.routes.iter().filter_map(|r| r.cost));
+    let wishes = problem.rooms.iter().flat_map(|r| &r.wishes);
+    parts.extend(wishes.filter_map(|w| w.cost));
     parts.retain(|&p| p > 0.0);
     let least = parts.iter().copied().fold(f64::INFINITY, f64::min);
     let whole = |p: &f64| (p / least - (p / least).round()).abs() < 1e-12 * p / least;

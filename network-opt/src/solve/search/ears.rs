@@ -178,7 +178,7 @@ fn surcharge(
     before: usize,
     breach: f64,
 ) -> f64 {
-    let on = |k: usize| state.active[k] || k == last || k == before;
+    let on = |k: usize| state.active[k] || k == last || k == before || k == e;
     let mut sum = 0.0;
     for triple in model.triples.of(e) {
         let [a, b] = triple.others;

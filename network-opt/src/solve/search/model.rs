@@ -67,7 +67,8 @@ pub(super) struct Model<'p> {
 /// much if the others are active too, those to be inactive left aside.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Triple {
-    /// The other edges; twice the same if there is only one.
+    /// The other edges; twice the same if there is only one, and the edge itself
+    /// if there is none.
     pub(super) others: [usize; 2],
     /// Infinite if it is forbidden.
     pub(super) cost: f64,
@@ -83,8 +84,18 @@ pub(super) struct RoomModel {
     pub(super) border_at: Lists<usize>,
     pub(super) inners: Lists<usize>,
     pub(super) inner_at: Lists<usize>,
-    /// Placements that can never be: over an obstacle or an active edge.
+    /// Placements that can never be: over an obstacle or an active edge, or
+    /// unwelcome in any case.
     pub(super) barred: Vec<bool>,
+    /// The placements of each count, and the counts of each placement.
+    pub(super) counted: Lists<usize>,
+    pub(super) counts_at: Lists<usize>,
+    /// The least and the most of each count.
+    pub(super) limits: Vec<[usize; 2]>,
+    /// Literals of each wish: a placement, and whether placing it denies it.
+    pub(super) wishes: Lists<(usize, bool)>,
+    pub(super) wish_costs: Vec<Option<f64>>,
+    pub(super) wishes_at: Lists<(usize, bool)>,
 }
 
 /// No network can be valid.
@@ -229,6 +240,12 @@ impl<'p> Model<'p> {
 }
 
 impl RoomModel {
+    /// By how much a count is off.
+    pub(super) fn off(&self, count: usize, rooms: usize) -> usize {
+        let [least, most] = self.limits[count];
+        least.saturating_sub(rooms) + rooms.saturating_sub(most)
+    }
+
     fn new(problem: &Problem, fates: &[Fate]) -> Self {
         let rooms = problem.rooms.as_ref().expect("a floorplan");
         let list = |of: fn(&crate::design::Placement) -> &Vec<usize>| {
@@ -245,6 +262,18 @@ impl RoomModel {
         };
         let (faces, borders, inners) =
             (list(|p| &p.faces), list(|p| &p.border), list(|p| &p.inner));
+        let unwelcome: std::collections::BTreeSet<usize> = (rooms.wishes.iter())
+            .filter(|w| w.cost.is_none() && w.when.len() == 1 && w.then.is_empty())
+            .map(|w| w.when[0])
+            .collect();
+        let (wishes, wish_costs) = wish_literals(&rooms.wishes);
+        let mut wishes_at = vec![Vec::new(); rooms.placements.len()];
+        for w in 0..wishes.len() {
+            for &(r, wanted) in wishes.of(w) {
+                wishes_at[r].push((w, wanted));
+            }
+        }
+        let counted = Lists::new(rooms.counts.iter().map(|c| c.rooms.clone()).collect());
         let barred = (rooms.placements.iter().enumerate())
             .map(|(k, placement)| {
                 // A face named twice would be covered twice.
@@ -252,6 +281,7 @@ impl RoomModel {
                     || faces.of(k).iter().any(|&f| !rooms.covered[f])
                     || inners.of(k).iter().any(|&e| fates[e] == Fate::On)
                     || borders.of(k).iter().all(|&e| fates[e] == Fate::Off)
+                    || unwelcome.contains(&k)
             })
             .collect();
         Self {
@@ -262,8 +292,34 @@ impl RoomModel {
             borders,
             inners,
             barred,
+            counts_at: inverse(&counted, rooms.placements.len()),
+            counted,
+            limits: (rooms.counts.iter())
+                .map(|c| [c.least, c.most.unwrap_or(usize::MAX)])
+                .collect(),
+            wishes,
+            wish_costs,
+            wishes_at: Lists::new(wishes_at),
         }
     }
+}
+
+/// The literals of each wish that can be denied.
+fn wish_literals(wishes: &[crate::design::RoomWish]) -> (Lists<(usize, bool)>, Vec<Option<f64>>) {
+    let (mut lists, mut costs) = (Vec::new(), Vec::new());
+    for wish in wishes {
+        if wish.cost == Some(0.0) || wish.when.iter().any(|r| wish.then.contains(r)) {
+            continue;
+        }
+        let when = wish.when.iter().map(|&r| (r, true));
+        let then = wish.then.iter().map(|&r| (r, false));
+        let mut list: Vec<_> = when.chain(then).collect();
+        list.sort_unstable();
+        list.dedup();
+        lists.push(list);
+        costs.push(wish.cost);
+    }
+    (Lists::new(lists), costs)
 }
 
 /// The literals of each pattern that can occur.
@@ -298,18 +354,20 @@ fn triples(
         let list = patterns.of(pattern);
         let never = |&(e, on): &(usize, bool)| fates[e] == if on { Fate::Off } else { Fate::On };
         let active: Vec<usize> = list.iter().filter(|l| l.1).map(|l| l.0).collect();
-        if !(2..=3).contains(&active.len()) || list.iter().any(never) {
+        // An edge alone that is dear, or two or three; a dead end is none of them,
+        // since a path goes on.
+        let alone = active.len() == 1 && list.len() == 1;
+        if !(alone || (2..=3).contains(&active.len())) || list.iter().any(never) {
             continue;
         }
         for &e in &active {
             let mut others = active.iter().copied().filter(|&k| k != e);
-            if let Some(first) = others.next() {
-                found[e].push(Triple {
-                    others: [first, others.next().unwrap_or(first)],
-                    cost: cost.unwrap_or(f64::INFINITY),
-                    pattern,
-                });
-            }
+            let first = others.next().unwrap_or(e);
+            found[e].push(Triple {
+                others: [first, others.next().unwrap_or(first)],
+                cost: cost.unwrap_or(f64::INFINITY),
+                pattern,
+            });
         }
     }
     Lists::new(found)

@@ -5,7 +5,7 @@ use super::state::State;
 use super::ways::Ways;
 
 /// Kinds of faults that are counted.
-pub(super) const KINDS: usize = 9;
+pub(super) const KINDS: usize = 11;
 
 /// Objective and faults of a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,7 +13,7 @@ pub(super) struct Score {
     pub(super) objective: f64,
     /// Uncovered rows, dead ends, island edges, forbidden patterns, routes
     /// without a path, rooms without a door, crossed rooms, bare faces, placed
-    /// sinks without a street.
+    /// sinks without a street, rooms too few or too many, demands on rooms.
     pub(super) faults: [usize; KINDS],
 }
 
@@ -26,7 +26,8 @@ impl Score {
             objective: problem.length_weight * state.length
                 + travelled
                 + state.pattern_cost
-                + state.route_cost,
+                + state.route_cost
+                + state.rooms.wish_cost,
             faults: [
                 state.missing.len(),
                 state.dead_ends.len(),
@@ -37,6 +38,8 @@ impl Score {
                 state.rooms.crossed.len(),
                 state.rooms.bare.len(),
                 state.idle.len(),
+                state.rooms.off,
+                state.rooms.unmet.len(),
             ],
         }
     }
@@ -56,7 +59,7 @@ pub(super) struct Fines {
 impl Fines {
     pub(super) fn new(unit: f64) -> Self {
         Self {
-            rates: [2.0, 3.0, 2.0, 4.0, 4.0, 4.0, 4.0, 8.0, 4.0].map(|k| k * unit),
+            rates: [2.0, 3.0, 2.0, 4.0, 4.0, 4.0, 4.0, 8.0, 4.0, 4.0, 4.0].map(|k| k * unit),
             least: 0.5 * unit,
         }
     }

@@ -75,6 +75,16 @@ pub(super) struct Rooms {
     pub(super) inside: Vec<usize>,
     /// Faces to be covered without a room.
     pub(super) bare: Subset,
+    /// Placed rooms of each count, counts that are off, and by how much in all.
+    pub(super) tallies: Vec<usize>,
+    pub(super) wrong: Subset,
+    pub(super) off: usize,
+    /// Literals of each wish that do not hold, wishes that are denied, and
+    /// demands that are not met.
+    lacking: Vec<usize>,
+    pub(super) denied: Subset,
+    pub(super) unmet: Subset,
+    pub(super) wish_cost: f64,
 }
 
 impl State {
@@ -123,6 +133,7 @@ impl State {
                 crossed: Subset::new(placements),
                 inside: vec![0; edges],
                 bare,
+                ..Rooms::counters(model.rooms.as_ref())
             },
             log: Vec::new(),
         };
@@ -392,6 +403,10 @@ impl State {
         self.route_cost = (self.lapsed.items().iter())
             .filter_map(|&r| model.route_costs[r])
             .sum();
+        if let Some(rooms) = &model.rooms {
+            let denied = self.rooms.denied.items().iter();
+            self.rooms.wish_cost = denied.filter_map(|&w| rooms.wish_costs[w]).sum();
+        }
     }
 }
 
@@ -434,6 +449,69 @@ impl Rooms {
                 self.inside[e] - 1
             };
         }
+        for &c in rooms.counts_at.of(room) {
+            self.off -= rooms.off(c, self.tallies[c]);
+            self.tallies[c] = if on {
+                self.tallies[c] + 1
+            } else {
+                self.tallies[c] - 1
+            };
+            let off = rooms.off(c, self.tallies[c]);
+            self.off += off;
+            self.wrong.set(c, off > 0);
+        }
+        for &(w, wanted) in rooms.wishes_at.of(room) {
+            let before = self.lacking[w];
+            self.lacking[w] = if on == wanted { before - 1 } else { before + 1 };
+            if before.min(self.lacking[w]) == 0 {
+                self.deny(rooms, w, self.lacking[w] == 0);
+            }
+        }
+    }
+
+    /// A wish is denied now, or no longer.
+    fn deny(&mut self, rooms: &super::model::RoomModel, w: usize, denied: bool) {
+        self.denied.set(w, denied);
+        match rooms.wish_costs[w] {
+            None => self.unmet.set(w, denied),
+            Some(cost) => self.wish_cost += if denied { cost } else { -cost },
+        }
+    }
+
+    /// The counters of counts and wishes without any room; all others empty.
+    fn counters(rooms: Option<&super::model::RoomModel>) -> Self {
+        let counts = rooms.map_or(0, |r| r.limits.len());
+        let wishes = rooms.map_or(0, |r| r.wishes.len());
+        let mut counters = Self {
+            placed: Subset::new(0),
+            owner: Vec::new(),
+            doors: Vec::new(),
+            crossings: Vec::new(),
+            shut: Subset::new(0),
+            crossed: Subset::new(0),
+            inside: Vec::new(),
+            bare: Subset::new(0),
+            tallies: vec![0; counts],
+            wrong: Subset::new(counts),
+            off: 0,
+            lacking: vec![0; wishes],
+            denied: Subset::new(wishes),
+            unmet: Subset::new(wishes),
+            wish_cost: 0.0,
+        };
+        if let Some(rooms) = rooms {
+            for c in 0..counts {
+                counters.off += rooms.off(c, 0);
+                counters.wrong.set(c, rooms.off(c, 0) > 0);
+            }
+            for w in 0..wishes {
+                counters.lacking[w] = rooms.wishes.of(w).iter().filter(|l| l.1).count();
+                if counters.lacking[w] == 0 {
+                    counters.deny(rooms, w, true);
+                }
+            }
+        }
+        counters
     }
 
     /// Whether a placement would have a door, and no corridor inside.

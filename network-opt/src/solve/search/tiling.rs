@@ -50,6 +50,98 @@ impl Walk<'_, '_> {
         false
     }
 
+    /// Makes a count less wrong: places a room of it if there are too few, and
+    /// tiles the faces of one anew if there are too many.
+    pub(super) fn even(&mut self, count: usize) -> bool {
+        let Some(rooms) = &self.model.rooms else {
+            return false;
+        };
+        let tally = self.state.rooms.tallies[count];
+        let few = tally < rooms.limits[count][0];
+        for _ in 0..8 {
+            let Some(room) = self.dice.pick(rooms.counted.of(count)) else {
+                return false;
+            };
+            let placed = self.state.rooms.placed.contains(room);
+            if placed == few {
+                continue;
+            }
+            let done = if few {
+                self.insist(room)
+            } else {
+                let region = 2 + self.dice.below(4);
+                self.retile(room, region)
+            };
+            if done && self.state.rooms.tallies[count] != tally {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Grants a wish: places a room that it wants, or tiles one that it is about
+    /// anew.
+    pub(super) fn grant(&mut self, wish: usize) -> bool {
+        let Some(rooms) = &self.model.rooms else {
+            return false;
+        };
+        let wanted = self.dice.chance(0.6);
+        let literals = rooms.wishes.of(wish).iter();
+        let some: Vec<usize> = (literals.filter(|l| l.1 != wanted).map(|l| l.0)).collect();
+        match self.dice.pick(&some) {
+            Some(room) if wanted => self.insist(room),
+            Some(room) if self.state.rooms.placed.contains(room) => {
+                let region = 2 + self.dice.below(4);
+                self.retile(room, region)
+            }
+            _ => false,
+        }
+    }
+
+    /// Places a room whatever is in its way, and tiles what is bare then. Says
+    /// whether it could; otherwise nothing has changed.
+    fn insist(&mut self, room: usize) -> bool {
+        let Some(rooms) = &self.model.rooms else {
+            return false;
+        };
+        if rooms.barred[room] || self.state.rooms.placed.contains(room) {
+            return false;
+        }
+        let mark = self.state.mark();
+        let mut region: Vec<usize> = Vec::new();
+        let owner = &self.state.rooms.owner;
+        let in_way = rooms.faces.of(room).iter().filter_map(|&f| owner[f]);
+        for other in in_way {
+            if !region.contains(&other) {
+                region.push(other);
+            }
+        }
+        for _ in 0..self.dice.below(3) {
+            let near = self.dice.pick(&region);
+            let near = near.and_then(|r| self.neighbour(rooms, r));
+            if let Some(other) = near.filter(|r| !region.contains(r)) {
+                region.push(other);
+            }
+        }
+        let mut faces: Vec<usize> = Vec::new();
+        for &other in &region {
+            faces.extend(rooms.faces.of(other));
+            self.state.clear(self.model, other);
+        }
+        let strict = self.dice.chance(0.5);
+        if strict && !self.state.rooms.would_do(room).1 {
+            self.state.undo(self.model, mark);
+            return false;
+        }
+        self.state.place(self.model, room);
+        let mut tries = TRIES;
+        if self.tile(&faces, strict, &mut tries) {
+            return true;
+        }
+        self.state.undo(self.model, mark);
+        false
+    }
+
     /// Another room on the border of a room.
     fn neighbour(&mut self, rooms: &RoomModel, room: usize) -> Option<usize> {
         let e = self.dice.pick(rooms.borders.of(room))?;
@@ -92,16 +184,28 @@ impl Walk<'_, '_> {
         let Some((_, face)) = tightest else {
             return true;
         };
-        let mut options: Vec<(bool, u64, usize)> = (rooms.at_face.of(face).iter())
+        let mut options: Vec<(u8, bool, u64, usize)> = (rooms.at_face.of(face).iter())
             .filter(|&&p| fits(p))
             .map(|&p| {
                 // Mostly: a room with a door may be one that leads nowhere.
                 let later = !placed.would_do(p).0 && self.dice.chance(0.8);
-                (later, self.dice.bits(), p)
+                let (mut lacking, mut enough) = (false, false);
+                for &c in rooms.counts_at.of(p) {
+                    let [least, most] = rooms.limits[c];
+                    lacking |= placed.tallies[c] < least;
+                    enough |= placed.tallies[c] >= most;
+                }
+                // Mostly here too: counts may come out right by another tiling.
+                let rank = match self.dice.chance(0.8) {
+                    true if enough => 2,
+                    true if lacking => 0,
+                    _ => 1,
+                };
+                (rank, later, self.dice.bits(), p)
             })
             .collect();
         options.sort_unstable();
-        for (_, _, p) in options {
+        for (_, _, _, p) in options {
             if *tries == 0 {
                 return false;
             }
@@ -150,6 +254,7 @@ mod tests {
             rooms: Some(Rooms {
                 placements: placements.collect(),
                 covered: vec![true; 8],
+                ..Rooms::default()
             }),
             length_weight: 1.0,
             ends,

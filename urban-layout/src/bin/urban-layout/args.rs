@@ -30,6 +30,8 @@ pub(crate) enum Verb {
     Streamlines(StreamlineJob),
     /// Design a street network from a specification: writes network.svg, network.geojson and network.json.
     Network(NetworkJob),
+    /// Plan the floors of a building, rooms and corridors: writes floorplan.svg, floorplan.geojson and floorplan.json.
+    Floorplan(FloorplanJob),
 }
 
 #[derive(Debug, Args)]
@@ -132,6 +134,32 @@ pub(crate) struct StreamlineJob {
     pub(crate) png: bool,
     #[command(flatten)]
     pub(crate) design: Design,
+    #[command(flatten)]
+    pub(crate) common: Common,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FloorplanJob {
+    /// The building, a GeoJSON file.
+    pub(crate) building: PathBuf,
+    /// Folder for the results; made if it is not there.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// Rooms, entrances, shafts and storeys, a TOML file; one storey of offices if not given.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) spec: Option<PathBuf>,
+    /// Seconds to search for.
+    #[arg(long, default_value_t = 10.0, value_name = "S")]
+    pub(crate) deadline: f64,
+    /// Seed of all random choices.
+    #[arg(long, default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// Threads of the search.
+    #[arg(long, default_value_t = 1)]
+    pub(crate) threads: usize,
+    /// Also draw floorplan.png.
+    #[arg(long)]
+    pub(crate) png: bool,
     #[command(flatten)]
     pub(crate) common: Common,
 }
@@ -277,6 +305,12 @@ impl Common {
     pub(crate) fn read(&self, path: &Path) -> Result<Site> {
         let text = std::fs::read_to_string(path).map_err(|e| Error::reading(path, e))?;
         Site::from_geojson(&text, self.units.into())
+    }
+
+    /// The building of a file.
+    pub(crate) fn read_building(&self, path: &Path) -> Result<Site> {
+        let text = std::fs::read_to_string(path).map_err(|e| Error::reading(path, e))?;
+        Site::building_from_geojson(&text, self.units.into())
     }
 }
 

@@ -4,6 +4,7 @@ mod args;
 mod bar;
 mod check;
 mod field;
+mod floorplan;
 mod generate;
 mod network;
 mod streamlines;
@@ -31,6 +32,7 @@ fn main() -> ExitCode {
         Verb::Field(job) => field::run(job),
         Verb::Streamlines(job) => streamlines::run(job),
         Verb::Network(job) => network::run(job),
+        Verb::Floorplan(job) => floorplan::run(job),
     };
     match done {
         Ok(code) => ExitCode::from(code),

@@ -60,8 +60,15 @@ impl<'m, 'p> Walk<'m, 'p> {
         }
         if let Some(room) = self.dice.pick(self.state.rooms.placed.items()) {
             if self.dice.chance(0.3) {
-                let count = 2 + self.dice.below(4);
-                self.retile(room, count);
+                match self.dice.pick(self.state.rooms.denied.items()) {
+                    Some(wish) if self.dice.chance(0.3) => {
+                        self.grant(wish);
+                    }
+                    _ => {
+                        let count = 2 + self.dice.below(4);
+                        self.retile(room, count);
+                    }
+                }
                 self.repair(2);
                 return;
             }
@@ -459,6 +466,7 @@ mod tests {
             rooms: rooms.then(|| Rooms {
                 placements,
                 covered: vec![true; 16],
+                ..Rooms::default()
             }),
             length_weight: 1.0,
             travel_weight: 0.5,

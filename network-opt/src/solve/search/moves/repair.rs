@@ -12,6 +12,8 @@ enum Fault {
     Crossed(usize),
     Shut(usize),
     Idle(usize),
+    Count(usize),
+    Wish(usize),
 }
 
 impl Walk<'_, '_> {
@@ -46,6 +48,8 @@ impl Walk<'_, '_> {
                     self.retile(room, count)
                 }
                 Fault::Shut(room) => self.open_room(room, &manner),
+                Fault::Count(count) => self.even(count),
+                Fault::Wish(wish) => self.grant(wish),
             };
             if mended && forced {
                 self.shove();
@@ -70,6 +74,8 @@ impl Walk<'_, '_> {
             dice.pick(state.cut.items()).map(Fault::Cut),
             dice.pick(state.rooms.crossed.items()).map(Fault::Crossed),
             dice.pick(state.rooms.shut.items()).map(Fault::Shut),
+            dice.pick(state.rooms.wrong.items()).map(Fault::Count),
+            dice.pick(state.rooms.unmet.items()).map(Fault::Wish),
             dice.pick(state.idle.items()).map(Fault::Idle),
         ];
         let kinds = faults.iter().flatten().count();
