@@ -22,21 +22,22 @@ fn config(cases: u32) -> ProptestConfig {
 /// either kind; lengths are no round numbers, so that no two ways are equal.
 fn graphs() -> impl Strategy<Value = StreetGraph> {
     (2_usize..12).prop_flat_map(|n| {
-        let place = (0.0..1000.0, 0.0..1000.0).prop_map(|(x, y)| coord! { x: x, y: y });
+        let offset = (0.0..900.0, 0.0..900.0);
         let parent = prop::collection::vec(0.0..1.0_f64, n - 1);
         let more = prop::collection::vec((0..n, 0..n, 0..4_usize, any::<bool>()), 0..2 * n);
-        (prop::collection::vec(place, n), parent, more).prop_map(|(places, parents, more)| {
-            let mut graph = StreetGraph {
-                nodes: places,
-                ..StreetGraph::default()
-            };
+        (prop::collection::vec(offset, n), parent, more).prop_map(|(offsets, parents, more)| {
+            let mut graph = StreetGraph::default();
+            for (k, (x, y)) in offsets.into_iter().enumerate() {
+                // Each in a square of its own, so that no two are at one place.
+                let (column, row) = ((k % 4) as f64, (k / 4) as f64);
+                graph.add_node(coord! { x: 1000.0 * column + x, y: 1000.0 * row + y });
+            }
             for (k, share) in parents.into_iter().enumerate() {
                 let parent = (share * (k + 1) as f64) as usize;
-                let _ = graph.add_street(k + 1, parent, 2, true);
+                graph.add_street(k + 1, parent, 2, true).unwrap();
             }
-            for (a, b, class, both) in more {
-                // From a node to itself, or to one at the same place: none.
-                let _ = graph.add_street(a, b, class, both);
+            for (a, b, class, both) in more.into_iter().filter(|more| more.0 != more.1) {
+                graph.add_street(a, b, class, both).unwrap();
             }
             graph
         })

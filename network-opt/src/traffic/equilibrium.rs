@@ -80,7 +80,7 @@ pub(super) fn equilibrium(
     if !(1.0..=20.0).contains(&options.beta) {
         return bad(format!("beta is {}; give 1 to 20", options.beta));
     }
-    if !(options.gap >= 0.0) {
+    if options.gap.is_nan() || options.gap < 0.0 {
         return bad(format!("gap is {}; give 0 or more", options.gap));
     }
     let costs = Costs {

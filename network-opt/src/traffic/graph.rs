@@ -183,6 +183,7 @@ impl StreetGraph {
     pub fn check(&self) -> Result<(), TrafficError> {
         let bad = |what: String| Err(TrafficError::BadGraph { what });
         let positive = |x: f64| x > 0.0 && x.is_finite();
+        let is_capacity = |x: f64| x > 0.0;
         if let Some(n) = self
             .nodes
             .iter()
@@ -191,7 +192,7 @@ impl StreetGraph {
             return bad(format!("node {n} is not at a finite place"));
         }
         for (c, class) in self.classes.iter().enumerate() {
-            if !positive(class.speed) || class.lanes == 0 || !(class.capacity > 0.0) {
+            if !positive(class.speed) || class.lanes == 0 || !is_capacity(class.capacity) {
                 return bad(format!(
                     "class {c} ({:?}) has a speed of {} m/s, {} lanes and a capacity of {}; all are positive",
                     class.name, class.speed, class.lanes, class.capacity
@@ -213,7 +214,7 @@ impl StreetGraph {
                     link.length, link.speed
                 ));
             }
-            if link.lanes == 0 || !(link.capacity > 0.0) || link.class >= self.classes.len() {
+            if link.lanes == 0 || !is_capacity(link.capacity) || link.class >= self.classes.len() {
                 return bad(format!(
                     "link {l} has {} lanes, a capacity of {} and class {}, of {}",
                     link.lanes,

@@ -18,6 +18,7 @@ mod palette;
 mod picture;
 mod sheet;
 mod streamlines;
+mod traffic;
 
 use geo_types::Coord;
 
@@ -30,6 +31,7 @@ pub use field::field_svg;
 pub use field_sheet::{field_sheet_svg, FieldPanel};
 pub use network::network_svg;
 pub use streamlines::{streamlines_svg, Paint, StreamlineSvgOptions};
+pub use traffic::traffic_svg;
 
 /// How a plan is drawn.
 #[derive(Clone, Debug, PartialEq)]
