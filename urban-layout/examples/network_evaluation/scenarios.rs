@@ -52,7 +52,7 @@ pub(crate) const SCENARIOS: [Scenario; 9] = [
     Scenario {
         name: "through",
         asks: "short, with a collector from north to south",
-        first: "length = 1.0\ntravel = 1e-4",
+        first: "length = 1.0\ntravel = 1e-4\ntoo-close = { weighted = 20.0 }",
         second: "length = 1.0\ntravel = 1e-4",
         places: "routes = [[[26.95973, 60.52205], [26.96016, 60.53059]]]",
     },
@@ -91,7 +91,7 @@ impl Scenario {
             ..
         } = self;
         format!(
-            "edge-length = 90.0\n\
+            "edge-length = 70.0\n\
              [[level]]\nclass = \"collector\"\nwidth = 14.0\n[level.network]\n{first}\n\
              [level.places]\n{places}\n\
              [[level]]\nclass = \"local\"\nwidth = 9.0\n[level.network]\nsinks = \"streets\"\n{second}\n"
