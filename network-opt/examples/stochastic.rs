@@ -8,7 +8,7 @@
 use std::error::Error;
 use std::time::Duration;
 
-use network_opt::design::{Problem, Sinks, Specification, Tessellation};
+use network_opt::design::{Problem, Rim, Sinks, Specification, Tessellation};
 use network_opt::geo_types::polygon;
 use network_opt::quad::{quads, QuadOptions};
 use network_opt::solve::{Limits, NetworkSolver, Outcome, Search, Stochastic};
@@ -51,10 +51,12 @@ fn problems(mesh: &Tessellation) -> Result<Vec<(&'static str, Problem)>, Box<dyn
     let inside = Sinks::At(inside.map(|(x, y)| at(mesh, x, y)).to_vec());
     let rooms = Specification {
         sinks: inside.clone(),
+        rim: Rim::Open,
         ..short.clone()
     };
     let lifts = Specification {
         sinks: inside,
+        rim: Rim::Open,
         ..quick.clone()
     };
     let specs = [
@@ -94,7 +96,14 @@ fn solve(
     let best = found.iter().map(objective).fold(f64::INFINITY, f64::min);
     let worst = found.iter().map(objective).fold(0.0, f64::max);
     let bound = found.iter().map(|o| o.bound).fold(0.0, f64::max);
-    Ok((format!("{best:.2} / {worst:.2}"), bound))
+    let word = |value: f64| {
+        if value.is_finite() {
+            format!("{value:.2}")
+        } else {
+            "none".to_owned()
+        }
+    };
+    Ok((format!("{} / {}", word(best), word(worst)), bound))
 }
 
 fn main() -> Result<(), Box<dyn Error>> {

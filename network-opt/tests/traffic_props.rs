@@ -360,7 +360,7 @@ fn a_square_kilometre_is_quick() {
         .filter(|&n| {
             [graph.nodes[n].x, graph.nodes[n].y]
                 .iter()
-                .any(|&x| x < 1.0 || x > 999.0)
+                .any(|x| !(1.0..=999.0).contains(x))
         })
         .collect();
     let began = std::time::Instant::now();

@@ -12,6 +12,11 @@ pub(crate) struct Scenario {
     places: &'static str,
 }
 
+/// Streets that lead to few places: no streets along the boundary, and so that
+/// there may be a way at all, dead ends and narrow blocks where they must be.
+const EXITS: &str = "length = 0.1\ntravel = 1.0\nrim = \"closed\"\n\
+                     dead-ends = { weighted = 2.0 }\ntoo-close = { weighted = 5.0 }";
+
 /// All of them, on `kotka_east`.
 pub(crate) const SCENARIOS: [Scenario; 9] = [
     Scenario {
@@ -67,15 +72,15 @@ pub(crate) const SCENARIOS: [Scenario; 9] = [
     Scenario {
         name: "three exits",
         asks: "three ways out, no streets along the boundary",
-        first: "length = 0.1\ntravel = 1.0\nrim = \"closed\"",
-        second: "length = 0.1\ntravel = 1.0\nrim = \"closed\"",
+        first: EXITS,
+        second: EXITS,
         places: "sinks = { at = [[26.95089, 60.52317], [26.96016, 60.53059], [26.95973, 60.52205]] }",
     },
     Scenario {
         name: "one exit",
         asks: "a single way out in the west, no streets along the boundary",
-        first: "length = 0.1\ntravel = 1.0\nrim = \"closed\"",
-        second: "length = 0.1\ntravel = 1.0\nrim = \"closed\"",
+        first: EXITS,
+        second: EXITS,
         places: "sinks = { at = [[26.95089, 60.52317]] }",
     },
 ];
