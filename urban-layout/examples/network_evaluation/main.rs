@@ -76,9 +76,13 @@ fn run(site: &Path, out: &Path, seconds: f64) -> Result<()> {
         write(format!("{file}.traffic.svg"), traffic_svg(&traffic, &site))?;
         let within = within(&traffic, &site);
         for (rows, trips) in [(&mut leaving, &traffic.trips), (&mut staying, &within)] {
-            let row = judge(scenario, &traffic.graph, trips)?;
-            eprintln!("{row:?}");
-            rows.push(row);
+            match judge(scenario, &traffic.graph, trips)? {
+                Some(row) => {
+                    eprintln!("{row:?}");
+                    rows.push(row);
+                }
+                None => eprintln!("{}: the streets are not in one piece", scenario.name),
+            }
         }
     }
     let mut page = String::new();
@@ -123,10 +127,15 @@ fn within(traffic: &StudyTraffic, site: &Site) -> Vec<Trip> {
     trips.filter(|trip| trip.from != trip.to).collect()
 }
 
-fn judge(scenario: &Scenario, graph: &StreetGraph, trips: &[Trip]) -> Result<Row> {
+/// `None` where no way leads from some place to another: streets that lead to
+/// different exits need not meet.
+fn judge(scenario: &Scenario, graph: &StreetGraph, trips: &[Trip]) -> Result<Option<Row>> {
     let fault = |e: TrafficError| Error::input(format!("{}: {e}", scenario.name));
     let demand = Demand::of_trips(trips, HOURS);
-    let predicted = assign(graph, &demand, &Assignment::ShortestTime).map_err(fault)?;
+    let predicted = match assign(graph, &demand, &Assignment::ShortestTime) {
+        Err(TrafficError::Unreachable { .. }) => return Ok(None),
+        other => other.map_err(fault)?,
+    };
     let files = SumoFiles::new(graph, trips, &SumoOptions::default()).map_err(fault)?;
     let folder = tempfile::tempdir().map_err(|e| Error::input(e.to_string()))?;
     let simulated = match files.simulate(folder.path(), &SEEDS) {
@@ -143,14 +152,14 @@ fn judge(scenario: &Scenario, graph: &StreetGraph, trips: &[Trip]) -> Result<Row
         }
         Err(error) => return Err(fault(error)),
     };
-    Ok(Row {
+    Ok(Some(Row {
         name: scenario.name,
         asks: scenario.asks,
         length: graph.street_length(),
         trips: trips.len(),
         predicted: (predicted.mean_distance, predicted.mean_time),
         simulated,
-    })
+    }))
 }
 
 /// A table as in the paper's figure 8 and section 5.1, with both rankings by
