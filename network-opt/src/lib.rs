@@ -12,9 +12,11 @@ pub mod mesh;
 pub mod mip;
 pub mod quad;
 mod quadratic;
+mod random;
 pub mod snake;
 pub mod solve;
 pub mod strip;
+pub mod traffic;
 
 pub use error::{DesignError, MeshError, MeshFault, OptimizeError};
 pub use mesh::{End, FaceId, HalfEdgeId, Locator, PlanarMesh, Split, VertexId, Wire};

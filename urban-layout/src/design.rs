@@ -24,8 +24,10 @@ use regions::{area, regions};
 
 mod places;
 mod regions;
+mod traffic;
 
 pub use places::{Places, SinkPlaces};
+pub use traffic::{StudyTraffic, TrafficOptions};
 
 /// What `--spec` holds.
 #[derive(Clone, Debug, PartialEq, Deserialize)]

@@ -53,7 +53,12 @@ fn a_network_is_designed_and_drawn() {
     let figures = json(&bench.expect(0, &words));
     assert_eq!(
         names(&bench.path("net")),
-        ["network.geojson", "network.json", "network.svg"]
+        [
+            "network.geojson",
+            "network.json",
+            "network.svg",
+            "traffic.svg"
+        ]
     );
     let read = |name: &str| std::fs::read_to_string(bench.path("net").join(name)).expect(name);
     assert_eq!(json(&read("network.json")), figures);
@@ -94,8 +99,68 @@ fn a_network_is_designed_and_drawn() {
             assert!(rim || shared, "a street ends at ({x}, {y})");
         }
     }
-    let svg = read("network.svg");
-    assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"));
+    for name in ["network.svg", "traffic.svg"] {
+        let svg = read(name);
+        assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"));
+    }
+    // 250 cars per square kilometre on 240 m by 150 m: 9 an hour.
+    let traffic = &figures["traffic"];
+    let rate = traffic["cars_per_hour"].as_f64().expect("a rate");
+    assert!((8.0..=10.0).contains(&rate), "{traffic}");
+    assert!(traffic["mean_distance_m"].as_f64().expect("metres") > 0.0);
+    assert_eq!(traffic["simulated"], Value::Null);
+}
+
+/// Files for SUMO, and if it is there what it says: near to what was predicted
+/// for the few cars of a small site.
+#[test]
+fn files_for_sumo_are_written() {
+    let bench = Bench::new();
+    let words = [
+        "network",
+        "site.geojson",
+        "--deadline",
+        "0.5",
+        "--cars",
+        "2000",
+        "--out",
+        "net",
+        "--sumo",
+        "--json",
+    ];
+    let figures = json(&bench.expect(0, &words));
+    let written = names(&bench.path("net"));
+    for end in ["nod.xml", "edg.xml", "typ.xml", "trips.xml", "sumocfg"] {
+        assert!(written.contains(&format!("network.{end}")), "{written:?}");
+    }
+    let simulated = &figures["traffic"]["simulated"];
+    if simulated.is_null() {
+        eprintln!("SUMO is not installed; nothing was simulated");
+        return;
+    }
+    assert_eq!(simulated["arrived"], simulated["trips"]);
+    let ratio = simulated["distance_ratio"].as_f64().expect("a ratio");
+    // Trips of some dozen metres lose and gain metres at junctions.
+    assert!((0.7..1.3).contains(&ratio), "{simulated}");
+}
+
+#[test]
+fn strange_numbers_of_cars_are_refused() {
+    let bench = Bench::new();
+    for cars in ["-1", "NaN", "1e12"] {
+        let cars = format!("--cars={cars}");
+        let words = [
+            "network",
+            "site.geojson",
+            "--deadline",
+            "0.3",
+            "--out",
+            "net",
+            &cars,
+        ];
+        assert_eq!(bench.run(&words).status.code(), Some(2), "{cars}");
+    }
+    assert!(!bench.path("net").exists());
 }
 
 /// Without a specification there are collectors; streets keep out of a lake.

@@ -11,6 +11,7 @@ mod conflicts;
 mod exact;
 mod race;
 mod record;
+mod stochastic;
 mod turns;
 mod window;
 
@@ -18,6 +19,7 @@ pub use conflicts::{conflicts, conflicts_by, Conflict, Constraints};
 pub use exact::Exact;
 pub use race::Race;
 pub use search::Search;
+pub use stochastic::Stochastic;
 pub use turns::Started;
 pub use window::Windows;
 

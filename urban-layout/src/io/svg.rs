@@ -19,6 +19,7 @@ mod palette;
 mod picture;
 mod sheet;
 mod streamlines;
+mod traffic;
 
 use geo_types::Coord;
 
@@ -32,6 +33,7 @@ pub use field_sheet::{field_sheet_svg, FieldPanel};
 pub use floorplan::floorplan_svg;
 pub use network::network_svg;
 pub use streamlines::{streamlines_svg, Paint, StreamlineSvgOptions};
+pub use traffic::traffic_svg;
 
 /// How a plan is drawn.
 #[derive(Clone, Debug, PartialEq)]

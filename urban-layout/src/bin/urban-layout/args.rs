@@ -28,7 +28,7 @@ pub(crate) enum Verb {
     Field(FieldJob),
     /// Place evenly spaced streamlines and judge them: writes streamlines.svg, streamlines.geojson and criteria.json.
     Streamlines(StreamlineJob),
-    /// Design a street network from a specification: writes network.svg, network.geojson and network.json.
+    /// Design a street network from a specification: writes network.svg, traffic.svg, network.geojson and network.json.
     Network(NetworkJob),
     /// Plan the floors of a building, rooms and corridors: writes floorplan.svg, floorplan.geojson and floorplan.json.
     Floorplan(FloorplanJob),
@@ -186,9 +186,15 @@ pub(crate) struct NetworkJob {
     /// Threads of the search.
     #[arg(long, default_value_t = 1)]
     pub(crate) threads: usize,
-    /// Also draw network.png.
+    /// Also draw network.png and traffic.png.
     #[arg(long)]
     pub(crate) png: bool,
+    /// Cars per square kilometre and hour that leave the site.
+    #[arg(long, default_value_t = 250.0, value_name = "N")]
+    pub(crate) cars: f64,
+    /// Write files for the traffic simulator SUMO, and run it if it is installed.
+    #[arg(long)]
+    pub(crate) sumo: bool,
     #[command(flatten)]
     pub(crate) common: Common,
 }
