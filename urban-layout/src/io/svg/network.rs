@@ -16,7 +16,7 @@ const INK: &str = "#343a40";
 
 /// Draws the streets of a study, as wide as they are, on the faint mesh that
 /// they were chosen from; along each a line whose colour says how far it is to
-/// a sink of its level, from blue to red.
+/// a sink of its level, from blue to red. Sinks that were placed are dots.
 #[must_use]
 pub fn network_svg(study: &NetworkStudy, site: &Site) -> String {
     let mut picture = Picture::new(site, LONG_SIDE, FOOT);
@@ -78,6 +78,13 @@ pub fn network_svg(study: &NetworkStudy, site: &Site) -> String {
         );
     }
     picture.outline();
+    for (_, _, place) in study.placed_sinks() {
+        let c = to.place(place);
+        picture.canvas.raw(&format!(
+            "<circle cx=\"{:.0}\" cy=\"{:.0}\" r=\"150\" fill=\"#fa5252\" stroke=\"{INK}\" stroke-width=\"30\"/>\n",
+            c.x, c.y
+        ));
+    }
     legend(&mut picture, far);
     picture.finish()
 }
