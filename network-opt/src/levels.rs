@@ -522,7 +522,7 @@ impl Level {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::{verify, EdgeState, OneWay, Sinks};
+    use crate::design::{verify, Among, EdgeState, OneWay, Rim, Sinks};
     use crate::solve::Search;
 
     fn two_levels(obstacles: Vec<usize>) -> Vec<Level> {
@@ -575,7 +575,7 @@ mod tests {
         for sink in [3, 24] {
             let spec = Specification {
                 sinks: Sinks::At(vec![sink]),
-                rim: crate::design::Rim::Closed,
+                rim: Rim::Closed,
                 ..Specification::default()
             };
             let limits = Limits {
@@ -590,6 +590,37 @@ mod tests {
             let streets = streets(&levels, &SnakeOptions::default()).expect("smooth");
             let meets = |street: &Street| street.line.0.contains(&at);
             assert!(streets.iter().any(meets), "a street at vertex {sink}");
+        }
+    }
+
+    /// Sinks that the first level places are what its ways lead to.
+    #[test]
+    fn ways_lead_to_placed_sinks() {
+        let limits = Limits {
+            deadline: None,
+            ..Limits::default()
+        };
+        let search = Search { moves: Some(3000) };
+        let first = Specification {
+            rim: Rim::Open,
+            sinks: Sinks::Placed {
+                count: 2,
+                among: Among::Interior,
+            },
+            ..Specification::default()
+        };
+        let second = Specification {
+            rim: Rim::Open,
+            sinks: Sinks::Streets,
+            ..Specification::default()
+        };
+        let mesh = Tessellation::grid(6, 6);
+        let levels = design_levels(mesh, &[first, second], &search, &limits, &mut |_| true);
+        let levels = levels.expect("fits");
+        let sinks = |level: &Level| level.outcome.network.as_ref().map(|n| n.sinks.len());
+        assert_eq!([sinks(&levels[0]), sinks(&levels[1])], [Some(2), Some(0)]);
+        for street in streets(&levels, &SnakeOptions::default()).expect("smooth") {
+            assert!(street.away.iter().all(|metres| metres.is_finite()));
         }
     }
 

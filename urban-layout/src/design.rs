@@ -7,7 +7,7 @@
 
 use std::time::{Duration, Instant};
 
-use geo_types::Polygon;
+use geo_types::{Coord, Polygon};
 use network_opt::design::{verify, Specification};
 use network_opt::levels::{
     design_plans, streets, usual_speed, Level, LevelPlan, Street, StreetClass,
@@ -267,6 +267,19 @@ impl NetworkStudy {
         self.parts.iter().flat_map(|part| &part.levels)
     }
 
+    /// The sinks that were placed because a specification leaves open where they
+    /// are: part, level and vertex of the mesh, local metres.
+    pub fn placed_sinks(&self) -> impl Iterator<Item = (usize, usize, Coord<f64>)> + '_ {
+        let levels = self.parts.iter().enumerate().flat_map(|(part, network)| {
+            let levels = network.levels.iter().enumerate();
+            levels.map(move |(k, level)| (part, k, level))
+        });
+        levels.flat_map(|(part, k, level)| {
+            let sinks = level.outcome.network.iter().flat_map(|n| &n.sinks);
+            sinks.map(move |&v| (part, k, level.mesh.points()[v]))
+        })
+    }
+
     /// The figures of `network.json`: sums over parts and levels.
     #[must_use]
     pub fn to_json(&self) -> Value {
@@ -301,6 +314,11 @@ impl NetworkStudy {
             })
             .map(|(part, k, level)| {
                 let cost = level.outcome.cost;
+                let network = level.outcome.network.as_ref();
+                let there = network.map_or(0, |n| {
+                    let routes = level.problem.routes.iter();
+                    routes.filter(|route| route.is_there(&n.active)).count()
+                });
                 json!({
                     "part": part,
                     "level": k,
@@ -312,6 +330,9 @@ impl NetworkStudy {
                     "bound": level.outcome.bound.is_finite().then_some(level.outcome.bound),
                     "length_m": cost.length * level.metres(),
                     "travel_m": cost.travel * level.metres(),
+                    "placed_sinks": network.map_or(0, |n| n.sinks.len()),
+                    "spans": level.problem.routes.len(),
+                    "spans_there": there,
                     "seconds": seconds(level.outcome.elapsed),
                 })
             })
@@ -333,4 +354,64 @@ impl NetworkStudy {
 fn valid(level: &Level) -> bool {
     let network = level.outcome.network.as_ref();
     network.is_some_and(|network| verify(&level.problem, network).is_empty())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use network_opt::design::{Among, Feature, Pairs, Parts, Place, Sinks};
+
+    /// The example of the documentation.
+    #[test]
+    fn traffic_and_sinks_are_read() {
+        let spec = NetworkSpec::from_toml(
+            r#"
+            [[level]]
+            [level.network]
+            sinks = { placed = { count = 3, among = "interior" } }
+            [level.network.traffic]
+            to-sinks = 0.5
+            inside = { parts = { count = 6 }, tolerance = 3, missing = { weighted = 1.0 } }
+            [level.network.traffic.across]
+            pairs = { between = [[{ u = 0.5, v = 0.0 }, { x = 120.0, y = 35.5 }], [0, 12]] }
+            [[level]]
+            [level.network]
+            sinks = { placed = { count = 1 } }
+            traffic = { inside = { parts = { around = [{ u = 0.2, v = 0.2 }, 7] } }, across = { pairs = { count = 2 } } }
+            [[level]]
+            network = { sinks = { placed = { count = 1, among = { list = [3, { u = 1.0, v = 1.0 }] } } } }
+            "#,
+        )
+        .expect("read");
+        let [first, second, third] = [0, 1, 2].map(|k| &spec.level[k].network);
+        let placed = |count, among| Sinks::Placed { count, among };
+        assert_eq!(first.sinks, placed(3, Among::Interior));
+        assert_eq!(first.traffic.to_sinks, 0.5);
+        let inside = first.traffic.inside.as_ref().expect("inside");
+        assert_eq!(
+            (inside.tolerance, inside.missing),
+            (3, Feature::Weighted(1.0))
+        );
+        let across = first.traffic.across.as_ref().expect("across");
+        let south = Place::Share { u: 0.5, v: 0.0 };
+        let point = Place::Point { x: 120.0, y: 35.5 };
+        let pairs = vec![[south, point], [Place::Vertex(0), Place::Vertex(12)]];
+        assert_eq!(across.pairs, Pairs::Between(pairs));
+        assert_eq!(across.missing, Feature::Forbidden);
+        assert_eq!(second.sinks, placed(1, Among::Boundary));
+        let around = vec![Place::Share { u: 0.2, v: 0.2 }, Place::Vertex(7)];
+        let inside = second.traffic.inside.as_ref().expect("inside");
+        assert_eq!(inside.parts, Parts::Around(around));
+        let corner = Place::Share { u: 1.0, v: 1.0 };
+        let list = Among::List(vec![Place::Vertex(3), corner]);
+        assert_eq!(third.sinks, placed(1, list));
+        for wrong in [
+            "inside = { part = 3 }",
+            "across = { pairs = 2 }",
+            "inward = 1",
+        ] {
+            let text = format!("[[level]]\nnetwork = {{ traffic = {{ {wrong} }} }}");
+            assert!(NetworkSpec::from_toml(&text).is_err(), "{wrong}");
+        }
+    }
 }

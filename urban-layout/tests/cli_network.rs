@@ -34,6 +34,48 @@ fn points(feature: &Value) -> Vec<(f64, f64)> {
     all.iter().map(|p| (number(&p[0]), number(&p[1]))).collect()
 }
 
+/// Sinks find their places, and spans are counted.
+#[test]
+fn sinks_are_placed_and_places_joined() {
+    let spec = r#"
+edge-length = 25.0
+[[level]]
+[level.network]
+rim = "open"
+sinks = { placed = { count = 2, among = "boundary" } }
+[level.network.traffic]
+inside = { parts = { count = 3 }, missing = { weighted = 1.0 } }
+across = { pairs = { between = [[{ u = 0.0, v = 0.5 }, { u = 1.0, v = 0.5 }]] }, missing = { weighted = 5.0 } }
+"#;
+    let bench = Bench::new();
+    std::fs::write(bench.path("spec.toml"), spec).expect("written");
+    let words = [
+        "network",
+        "site.geojson",
+        "--spec",
+        "spec.toml",
+        "--deadline",
+        "1.0",
+        "--out",
+        "net",
+        "--json",
+    ];
+    let figures = json(&bench.expect(0, &words));
+    let level = &figures["levels"][0];
+    assert_eq!(level["placed_sinks"], 2);
+    // Three parts are joined in a row or all to all.
+    let spans = level["spans"].as_u64().expect("spans");
+    assert!((3..=4).contains(&spans), "{spans}");
+    assert!(level["spans_there"].as_u64().expect("spans") <= spans);
+    let text = std::fs::read_to_string(bench.path("net").join("network.geojson")).expect("text");
+    let streets = json(&text);
+    let features = streets["features"].as_array().expect("features");
+    let sinks = features
+        .iter()
+        .filter(|f| f["properties"]["kind"] == "sink");
+    assert_eq!(sinks.count(), 2);
+}
+
 /// What each file promises, and that levels meet.
 #[test]
 fn a_network_is_designed_and_drawn() {

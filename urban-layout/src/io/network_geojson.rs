@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use super::coordinates::{number, push_line};
+use super::coordinates::{number, push_line, push_position};
 use super::frame::Frame;
 use crate::design::NetworkStudy;
 
@@ -14,7 +14,8 @@ use crate::design::NetworkStudy;
 /// Every feature is a LineString with `id` (its position), `part` of the site,
 /// `class`, `level` (0 for the widest), `width_m`, `speed_kmh`, `length_m` and
 /// `one_way`: a one-way street runs in its direction. A ring repeats its first
-/// point at the end.
+/// point at the end. After the streets come the sinks that were placed, if any:
+/// Points of the kind `sink` with `id`, `part` and `level`.
 #[must_use]
 pub fn network_to_geojson(study: &NetworkStudy, frame: &Frame) -> String {
     let mut text = String::from("{\"type\":\"FeatureCollection\",");
@@ -44,6 +45,17 @@ pub fn network_to_geojson(study: &NetworkStudy, frame: &Frame) -> String {
             text.push_str("}}");
             id += 1;
         }
+    }
+    for (part, level, place) in study.placed_sinks() {
+        let _ = write!(
+            text,
+            "{}\n{{\"type\":\"Feature\",\"properties\":{{\"kind\":\"sink\",\"id\":{id},\"part\":{part},\
+             \"level\":{level}}},\"geometry\":{{\"type\":\"Point\",\"coordinates\":",
+            if id == 0 { "" } else { "," },
+        );
+        push_position(&mut text, frame, place);
+        text.push_str("}}");
+        id += 1;
     }
     text.push_str("\n]}\n");
     text

@@ -86,23 +86,34 @@ impl<'m, 'p> Anneal<'m, 'p> {
         self.done += 1;
         if self.done == self.cycle {
             self.done = 0;
-            if self.walk.model.placing.is_some() {
-                self.cycle += self.cycle / 4;
-                if self.best.is_none() || self.walk.dice.chance(0.6) {
-                    self.afresh();
-                } else {
-                    self.restart();
-                }
-                return improved;
-            }
-            self.cycle *= 2;
-            if self.best.is_none() {
-                self.afresh();
-            } else if self.walk.dice.chance(0.5) {
-                self.restart();
-            }
+            self.begin_cycle();
         }
         improved
+    }
+
+    /// Begins a cycle where the last one ended, at the best network, or anew.
+    fn begin_cycle(&mut self) {
+        if self.walk.model.placing.is_some() {
+            self.cycle += self.cycle / 4;
+            if self.best.is_none() || self.walk.dice.chance(0.6) {
+                self.afresh();
+            } else {
+                self.restart();
+            }
+            return;
+        }
+        self.cycle *= 2;
+        if self.best.is_none() {
+            self.afresh();
+        } else if self.walk.dice.chance(0.5) {
+            self.restart();
+        }
+        let walk = &mut self.walk;
+        if !walk.state.lapsed.is_empty() && walk.dice.chance(0.7) {
+            walk.open_lapsed();
+            walk.state.settle();
+            self.at = Score::of(walk.model, &walk.state, &mut walk.ways);
+        }
     }
 
     /// Begins again from nothing. Where nothing valid was found fines have grown

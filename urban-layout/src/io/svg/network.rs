@@ -16,7 +16,7 @@ const INK: &str = "#343a40";
 
 /// Draws the streets of a study, as wide as they are, on the faint mesh that
 /// they were chosen from; along each a line whose colour says how far it is to
-/// a sink of its level, from blue to red.
+/// a sink of its level, from blue to red. Sinks that were placed are dots.
 #[must_use]
 pub fn network_svg(study: &NetworkStudy, site: &Site) -> String {
     let mut picture = Picture::new(site, LONG_SIDE, FOOT);
@@ -97,6 +97,9 @@ pub fn network_svg(study: &NetworkStudy, site: &Site) -> String {
     picture.outline();
     for sink in few_sinks(study) {
         dot(&mut picture.canvas, to.place(sink), 110.0, "#c92a2a");
+    }
+    for (_, _, place) in study.placed_sinks() {
+        dot(&mut picture.canvas, to.place(place), 150.0, "#fa5252");
     }
     legend(&mut picture, far);
     picture.finish()

@@ -111,6 +111,17 @@ impl Walk<'_, '_> {
         }
     }
 
+    /// Makes all routes that are missing active at once: each alone may cost more
+    /// than it saves until others share its streets.
+    pub(in super::super) fn open_lapsed(&mut self) {
+        let mut lapsed = self.state.lapsed.items().to_vec();
+        self.dice.shuffle(&mut lapsed);
+        for route in lapsed {
+            self.open_route(route);
+        }
+        self.repair(16);
+    }
+
     /// Makes one of the paths of a route active: of a few the one that lacks the
     /// fewest edges.
     pub(super) fn open_route(&mut self, route: usize) -> bool {
