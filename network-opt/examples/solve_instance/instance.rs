@@ -153,6 +153,7 @@ impl Instance {
             rooms,
             length_weight: length.unwrap_or(0.0),
             travel_weight: travel.unwrap_or(0.0),
+            ..Problem::default()
         };
         problem.check()?;
         Ok(problem)
