@@ -13,6 +13,8 @@ use network_opt::mip::Microlp;
 use network_opt::solve::{Ended, Exact, Limits, NetworkSolver, Race, Search, Windows};
 use network_opt::DesignError;
 use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
 use std::time::Duration;
 
 fn config(cases: u32) -> ProptestConfig {
@@ -499,6 +501,32 @@ proptest! {
         prop_assert!((found.cost.objective - least).abs() < CLOSE);
         prop_assert_eq!(verify(&problem, &found.network.unwrap()), vec![]);
     }
+}
+
+/// Enough of the random problems are small enough to be tried out, have valid
+/// networks, and have streets in them whose direction was chosen.
+#[test]
+fn recipes_are_worth_trying() {
+    let mut runner = TestRunner::deterministic();
+    let (mut tried, mut solvable, mut turned) = (0, 0, 0);
+    for _ in 0..200 {
+        let recipe = recipe().new_tree(&mut runner).unwrap().current();
+        let problem = recipe.problem();
+        let Some(valid) = all_valid(&problem) else {
+            continue;
+        };
+        tried += 1;
+        solvable += usize::from(!valid.is_empty());
+        let chosen = |n: &Network| {
+            let mut edges = 0..problem.edges();
+            edges.any(|e| n.active[e] && problem.way(e) == Way::Either)
+        };
+        turned += usize::from(valid.iter().any(chosen));
+    }
+    assert!(
+        tried > 120 && solvable > 40 && turned > 20,
+        "{tried} {solvable} {turned}"
+    );
 }
 
 /// A street to a block and one way around it, from a single sink: both ways

@@ -8,6 +8,7 @@
 //! - [`Tessellation`]: the mesh;
 //! - [`Specification`]: what the network is for, in a designer's words;
 //! - [`Problem`]: what is asked of it, edge by edge;
+//! - [`Way`], [`OneWay`]: streets over which traffic runs one way;
 //! - [`Network`]: an answer; [`verify`] says what is wrong with it and [`cost`]
 //!   what it costs, both without knowledge of any solver.
 

@@ -92,6 +92,9 @@ pub(super) fn add(draft: &mut Draft<'_>) -> Arcs {
                 break;
             }
             let ring = leaving(draft, &ball);
+            if ring.len() > WIDEST {
+                break;
+            }
             cuts.insert(ball.iter().copied().collect::<Vec<usize>>());
             // Over an edge that is active anyway a way leads out.
             if ring.is_empty() || ring.iter().any(|&(e, _)| draft.x[e] == Term::On) {
@@ -116,6 +119,9 @@ pub(super) fn add(draft: &mut Draft<'_>) -> Arcs {
 
 /// Rings of neighbours that are put around a set at most.
 const RINGS: usize = 24;
+/// Edges of a cut at most: one of many says little of each, and rows of many
+/// columns cost time.
+const WIDEST: usize = 32;
 
 /// The edges that may be active with one end among some vertices, with that end.
 fn leaving(draft: &Draft<'_>, ball: &BTreeSet<usize>) -> Vec<(usize, usize)> {
