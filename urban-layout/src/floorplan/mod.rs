@@ -2,7 +2,7 @@
 //! plans.
 //!
 //! The building's outline is cut into quads, [`network_opt::floor`] places rooms
-//! and corridors on them, storey by storey, and [`draw`] makes polygons with
+//! and corridors on them, storey by storey, and [`mod@draw`] makes polygons with
 //! walls and doors of that.
 
 pub mod draw;

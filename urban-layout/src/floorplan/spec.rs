@@ -55,7 +55,7 @@ impl FloorplanSpec {
     /// use urban_layout::floorplan::FloorplanSpec;
     ///
     /// let spec = FloorplanSpec::from_toml(
-    ///     r###"
+    ///     r####"
     ///     corridor-width = 2.0
     ///     spread-shafts = 2
     ///     [[room]]
@@ -72,7 +72,7 @@ impl FloorplanSpec {
     ///     dead-ends = "forbidden"
     ///     [[storey]]
     ///     name = "First floor"
-    ///     "###,
+    ///     "####,
     /// )?;
     /// assert_eq!(spec.storey[1].rooms[1].name, "toilet");
     /// # Ok::<(), urban_layout::Error>(())
