@@ -272,6 +272,11 @@ fn pigou() {
     let busy = assign(&graph, &Demand::pairs(&[(a, b)], 500.0), &how).unwrap();
     assert!((busy.vehicles[quick] - share).abs() < 1e-3, "{busy:?}");
     assert!((busy.times[quick] - 20.0).abs() < 1e-4 && (busy.mean_time - 20.0).abs() < 1e-4);
+    // Fifty times the capacity on one way: tangents there are far below zero.
+    let jam = assign(&graph, &Demand::pairs(&[(a, b)], 5000.0), &how).unwrap();
+    let gaps = jam.equilibrium.unwrap().gaps;
+    assert!(gaps.iter().all(|gap| (0.0..=1.0).contains(gap)), "{gaps:?}");
+    assert!(gaps.windows(2).all(|w| w[1] <= w[0] + 1e-12), "{gaps:?}");
     // With less all take the quick one.
     let calm = assign(&graph, &Demand::pairs(&[(a, b)], 150.0), &how).unwrap();
     assert!((calm.vehicles[quick] - 150.0).abs() < 1e-6);

@@ -59,7 +59,7 @@ pub struct Equilibrium {
     /// of now. 0 at the equilibrium.
     pub relative_gap: f64,
     /// After each round how far Beckmann's function is over its best known lower
-    /// bound, as a share of it; never grows.
+    /// bound, as a share of the function, 0 to 1; never grows.
     pub gaps: Vec<f64>,
 }
 
@@ -91,7 +91,9 @@ pub(super) fn equilibrium(
     let mut flow = plan.load(&costs.free)?;
     let mut goal: Vec<f64> = flow.clone();
     let mut found = Equilibrium::default();
-    let mut bound = f64::NEG_INFINITY;
+    // No link is quicker than when it is free. Bounds by tangents may well be
+    // negative at first, when all crowd on one way.
+    let mut bound = dot(&costs.free, &flow);
     for round in 0..=options.rounds {
         let times = costs.times(&flow);
         let quick = plan.load(&times)?;
