@@ -3,7 +3,7 @@
 //! One module for each family of constraints, each with its equation:
 //! `activity` (1), `dead_ends` (2), `coverage` (3), `patterns` (4, 5), `balls`
 //! (6), `flow` (7), `travel` (8), `single_sink` (9), `routes`, `rooms` (15 to
-//! 19), and `paper`, the formulation of Peng et al. 2016 as they wrote it.
+//! 17), `parents` and `room_balls` (20 to 23), and `paper`, the formulation of Peng et al. 2016 as they wrote it.
 
 mod activity;
 mod balls;
@@ -13,8 +13,10 @@ mod dead_ends;
 mod draft;
 mod flow;
 mod paper;
+mod parents;
 mod patterns;
 mod prepare;
+mod room_balls;
 mod rooms;
 mod routes;
 mod single_sink;
@@ -25,6 +27,7 @@ use crate::error::DesignError;
 use crate::mip::{Program, Row};
 
 use draft::{Draft, Fill, Known, Term};
+use room_balls::RoomBalls;
 
 pub use prepare::{prepare, Fate};
 pub use single_sink::longest_ways;
@@ -72,6 +75,41 @@ impl Formulation {
     }
 }
 
+/// Families of cuts: rows that every valid network meets and that fractions do
+/// not. Without them programs have the same solutions, and worse bounds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Cuts {
+    /// Ball cuts (6): what coverage and connectivity say together.
+    ///
+    /// Default value: `true`.
+    pub balls: bool,
+    /// Room cuts (22) and (23): what rooms and connectivity say together.
+    ///
+    /// Default value: `true`.
+    pub rooms: bool,
+}
+
+impl Default for Cuts {
+    fn default() -> Self {
+        Self {
+            balls: true,
+            rooms: true,
+        }
+    }
+}
+
+impl Cuts {
+    /// None of them.
+    #[must_use]
+    pub const fn none() -> Self {
+        Self {
+            balls: false,
+            rooms: false,
+        }
+    }
+}
+
 /// A problem as an integer program.
 #[derive(Debug)]
 pub struct Formulated<'p> {
@@ -80,6 +118,7 @@ pub struct Formulated<'p> {
     program: Program,
     x: Vec<Term>,
     rooms: Option<usize>,
+    room_balls: Option<RoomBalls>,
     families: Vec<Family>,
     contradicts: bool,
     longest: Option<Vec<f64>>,
@@ -135,6 +174,20 @@ impl<'p> Formulated<'p> {
         formulation: Formulation,
         longest: Option<Vec<f64>>,
     ) -> Result<Self, DesignError> {
+        Self::with_cuts(problem, formulation, longest, Cuts::default())
+    }
+
+    /// As [`Formulated::new`], with some families of cuts only.
+    ///
+    /// # Errors
+    ///
+    /// [`DesignError::BadProblem`] if the problem does not fit together.
+    pub fn with_cuts(
+        problem: &'p Problem,
+        formulation: Formulation,
+        longest: Option<Vec<f64>>,
+        cuts: Cuts,
+    ) -> Result<Self, DesignError> {
         problem.check()?;
         let formulation = match formulation {
             Formulation::Recommended => Formulation::for_problem(problem),
@@ -150,7 +203,9 @@ impl<'p> Formulated<'p> {
         plain(Box::new(routes::add(&mut draft, tight)));
         if tight {
             plain(Box::new(patterns::add(&mut draft)));
-            balls::add(&mut draft);
+            if cuts.balls {
+                balls::add(&mut draft);
+            }
         }
         let plain_columns = draft.program.columns().len();
         match formulation {
@@ -168,7 +223,14 @@ impl<'p> Formulated<'p> {
             }
             Formulation::Paper => plain(Box::new(paper::add(&mut draft))),
         }
+        let mut room_balls = None;
         let rooms = rooms::add(&mut draft, tight).map(|rooms| {
+            if tight && cuts.rooms {
+                let parents = parents::add(&mut draft);
+                families.push(Family::Plain(Box::new(parents.clone())));
+                let (r, holding) = (&rooms.r, &rooms.holding);
+                room_balls = Some(RoomBalls::add(&mut draft, r, holding, parents));
+            }
             families.push(Family::Rooms(rooms));
             families.len() - 1
         });
@@ -180,6 +242,7 @@ impl<'p> Formulated<'p> {
             program,
             x: draft.x,
             rooms,
+            room_balls,
             families,
             contradicts: draft.contradicts,
             longest,
@@ -268,7 +331,8 @@ impl<'p> Formulated<'p> {
     /// `tolerance`: room cuts, which are too many to write all of them down.
     #[must_use]
     pub fn separate(&self, values: &[f64], tolerance: f64) -> Vec<Row> {
-        (self.room_family()).map_or_else(Vec::new, |rooms| rooms.separate(values, tolerance))
+        (self.room_balls.as_ref())
+            .map_or_else(Vec::new, |balls| balls.separate(values, tolerance))
     }
 
     /// The program with all edges as in `network` but those of which `free` says
@@ -306,7 +370,7 @@ impl<'p> Formulated<'p> {
     /// Whether there are any such rows.
     #[must_use]
     pub fn separates(&self) -> bool {
-        self.rooms.is_some()
+        self.room_balls.is_some()
     }
 
     /// Adds a row that all valid networks meet.
