@@ -13,9 +13,16 @@ use network_opt::solve::{Ended, Exact, Limits, NetworkSolver};
 use proptest::prelude::*;
 use proptest::sample::subsequence;
 
+/// A thousand cases at least in long runs.
 fn config(cases: u32) -> ProptestConfig {
     let long = std::env::var_os("URBAN_LAYOUT_LONG").is_some();
-    ProptestConfig::with_cases(if long { cases * 20 } else { cases })
+    let cases = if long { cases.max(50) * 20 } else { cases };
+    ProptestConfig {
+        cases,
+        // Problems with many open edges are drawn as well, and passed over.
+        max_global_rejects: 50 * cases.max(100),
+        ..ProptestConfig::default()
+    }
 }
 
 /// Solvers hold rows to a millionth; sums here have some tens of terms of size

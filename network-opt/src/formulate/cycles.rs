@@ -134,7 +134,14 @@ pub(super) fn least_cycle(draft: &Draft<'_>) -> Option<usize> {
         let mut path = Vec::new();
         for root in 0..draft.problem.vertices {
             let mut on_path = vec![root];
-            let found = closes(draft, &forbidden, length, &mut path, &mut on_path, &mut steps);
+            let found = closes(
+                draft,
+                &forbidden,
+                length,
+                &mut path,
+                &mut on_path,
+                &mut steps,
+            );
             if found || steps > LEAST_STEPS {
                 return Some(length);
             }

@@ -3,13 +3,15 @@
 //! One module for each family of constraints, each with its equation:
 //! `activity` (1), `dead_ends` (2), `coverage` (3), `patterns` (4, 5), `balls`
 //! (6), `flow` (7), `travel` (8), `single_sink` (9), `routes`, `rooms` (15 to
-//! 17), `parents` and `room_balls` (20 to 23), and `paper`, the formulation of Peng et al. 2016 as they wrote it.
+//! 17), `parents` and `room_balls` (20 to 23), `detours`
+//! (24, 25), and `paper`, the formulation of Peng et al. 2016 as they wrote it.
 
 mod activity;
 mod balls;
 mod coverage;
 mod cycles;
 mod dead_ends;
+mod detours;
 mod draft;
 mod flow;
 mod paper;
@@ -26,6 +28,7 @@ use crate::design::{Network, Problem};
 use crate::error::DesignError;
 use crate::mip::{Program, Row};
 
+use detours::Detours;
 use draft::{Draft, Fill, Known, Term};
 use room_balls::RoomBalls;
 
@@ -88,24 +91,37 @@ pub struct Cuts {
     ///
     /// Default value: `true`.
     pub rooms: bool,
+    /// Detour cuts (24): what travel and streets that are missing say together.
+    /// Of [`Formulation::TravelFlow`] and [`Formulation::SingleSink`].
+    ///
+    /// Default value: `true`.
+    pub detours: bool,
 }
 
 impl Default for Cuts {
     fn default() -> Self {
-        Self {
-            balls: true,
-            rooms: true,
-        }
+        Self::all()
     }
 }
 
 impl Cuts {
+    /// All of them.
+    #[must_use]
+    pub const fn all() -> Self {
+        Self {
+            balls: true,
+            rooms: true,
+            detours: true,
+        }
+    }
+
     /// None of them.
     #[must_use]
     pub const fn none() -> Self {
         Self {
             balls: false,
             rooms: false,
+            detours: false,
         }
     }
 }
@@ -119,6 +135,7 @@ pub struct Formulated<'p> {
     x: Vec<Term>,
     rooms: Option<usize>,
     room_balls: Option<RoomBalls>,
+    detours: Option<Detours>,
     families: Vec<Family>,
     contradicts: bool,
     longest: Option<Vec<f64>>,
@@ -207,19 +224,31 @@ impl<'p> Formulated<'p> {
                 balls::add(&mut draft);
             }
         }
+        let mut detours = None;
         let plain_columns = draft.program.columns().len();
         match formulation {
             Formulation::Recommended | Formulation::Flow => {
                 plain(Box::new(flow::add(&mut draft)));
             }
             Formulation::TravelFlow => {
-                plain(Box::new(travel::add(&mut draft)));
+                let travel = travel::add(&mut draft);
+                if cuts.detours {
+                    detours = detours::add(&mut draft, &travel);
+                    if let Some(detours) = &detours {
+                        plain(Box::new(detours.clone()));
+                    }
+                }
+                plain(Box::new(travel));
                 if flow::has_orphans(&draft) {
                     plain(Box::new(flow::add(&mut draft)));
                 }
             }
             Formulation::SingleSink => {
-                plain(Box::new(single_sink::add(&mut draft, longest.as_deref())));
+                let ways = single_sink::add(&mut draft, longest.as_deref());
+                if cuts.detours {
+                    detours = detours::of(&draft, ways.ways());
+                }
+                plain(Box::new(ways));
             }
             Formulation::Paper => plain(Box::new(paper::add(&mut draft))),
         }
@@ -243,6 +272,7 @@ impl<'p> Formulated<'p> {
             x: draft.x,
             rooms,
             room_balls,
+            detours,
             families,
             contradicts: draft.contradicts,
             longest,
@@ -328,11 +358,17 @@ impl<'p> Formulated<'p> {
     }
 
     /// Valid rows that a solution of the relaxation violates by over
-    /// `tolerance`: room cuts, which are too many to write all of them down.
+    /// `tolerance`: room cuts and detour cuts, which are too many to write all of
+    /// them down.
     #[must_use]
     pub fn separate(&self, values: &[f64], tolerance: f64) -> Vec<Row> {
-        (self.room_balls.as_ref())
-            .map_or_else(Vec::new, |balls| balls.separate(values, tolerance))
+        let rooms = self.room_balls.iter();
+        let mut rows: Vec<Row> = rooms
+            .flat_map(|balls| balls.separate(values, tolerance))
+            .collect();
+        let detours = self.detours.iter();
+        rows.extend(detours.flat_map(|detours| detours.separate(values, tolerance)));
+        rows
     }
 
     /// The program with all edges as in `network` but those of which `free` says
@@ -370,7 +406,7 @@ impl<'p> Formulated<'p> {
     /// Whether there are any such rows.
     #[must_use]
     pub fn separates(&self) -> bool {
-        self.room_balls.is_some()
+        self.room_balls.is_some() || self.detours.is_some()
     }
 
     /// Adds a row that all valid networks meet.

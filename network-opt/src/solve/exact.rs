@@ -62,10 +62,7 @@ impl<M> Exact<M> {
             solver,
             formulation: Formulation::Recommended,
             rounds: 12,
-            cuts: Cuts {
-                balls: true,
-                rooms: true,
-            },
+            cuts: Cuts::all(),
         }
     }
 }
@@ -266,6 +263,9 @@ impl<M: MipSolver> Exact<M> {
         }
         if until == Until::Proof && record.is_within(limits.gap) {
             return Ok(Run::Ended(Ended::Proven));
+        }
+        if limits.deadline.is_some_and(|deadline| deadline.is_zero()) {
+            return Ok(Run::Ended(Ended::Deadline));
         }
         let start = record
             .best
