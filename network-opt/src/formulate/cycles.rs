@@ -294,6 +294,38 @@ mod tests {
     }
 
     #[test]
+    fn the_least_cycle_has_no_forbidden_pattern() {
+        let ends: Vec<[usize; 2]> = window().into_iter().map(|(_, ends)| ends).collect();
+        let pattern = |active| crate::design::Pattern {
+            kind: crate::design::PatternKind::TooClose,
+            active,
+            inactive: vec![],
+            cost: None,
+        };
+        let mut problem = crate::design::Problem {
+            vertices: 9,
+            lengths: vec![1.0; ends.len()],
+            states: vec![Default::default(); ends.len()],
+            sinks: (0..9).map(|v| v == 4).collect(),
+            ends,
+            length_weight: 1.0,
+            dead_ends: true,
+            ..Default::default()
+        };
+        // A pane; without too close edges only the frame.
+        assert_eq!(least_cycle(&Draft::new(&problem)), Some(4));
+        problem.patterns = too_close().into_iter().map(pattern).collect();
+        assert_eq!(least_cycle(&Draft::new(&problem)), Some(8));
+        // Without one of its edges none, which is not noticed; but all that is
+        // looked for are cycles of less than twelve.
+        problem.states[0] = crate::design::EdgeState::Closed;
+        assert_eq!(least_cycle(&Draft::new(&problem)), Some(LONGEST));
+        // A tree has none.
+        problem.states[1..6].fill(crate::design::EdgeState::Closed);
+        assert_eq!(least_cycle(&Draft::new(&problem)), None);
+    }
+
+    #[test]
     fn too_many_cycles_are_not_listed() {
         let n = 12;
         let complete: Vec<[usize; 2]> = (0..n).flat_map(|a| (0..a).map(move |b| [b, a])).collect();

@@ -6,12 +6,12 @@
 //! crosses that is shorter than k + m. Then with c_g a column for the way of g,
 //! 0 where g is not active,
 //!
-//! c_g >= (k + m) x_g - m x(A),   (24)
-//! sum of l_e f_e >= sum of c_g.   (25)
+//! c_g >= (k + m) x_g - m x(A),   (26)
+//! sum of l_e f_e >= sum of c_g.   (27)
 //!
 //! *Proof.* Where g is active and no edge of A is, D_g is k + m at least; where
 //! one of A is, D_g is k at least, and the right hand side is k at most; where g
-//! is not active that is 0 at most. So c_g = D_g meets (24), and the flow of
+//! is not active that is 0 at most. So c_g = D_g meets (26), and the flow of
 //! (8), which takes the shortest ways, travels the sum of all D_g. []
 //!
 //! A flow alone takes the shortest ways over all edges, each of which need be
@@ -39,7 +39,7 @@ const LARGE: usize = 1_500;
 /// How much longer ways are looked at, in the least length of an edge.
 const LONGER: usize = 4;
 
-/// The columns of (25), and all cuts (24).
+/// The columns of (27), and all cuts (26).
 #[derive(Clone, Debug)]
 pub(super) struct Detours {
     /// The way of each edge that sends.
@@ -49,7 +49,7 @@ pub(super) struct Detours {
     cuts: Vec<Cut>,
 }
 
-/// A cut (24).
+/// A cut (26).
 #[derive(Clone, Debug)]
 struct Cut {
     edge: usize,
@@ -60,7 +60,7 @@ struct Cut {
     crossed: Vec<usize>,
 }
 
-/// Adds the columns of ways and row (25) to a flow; nothing where the problem is
+/// Adds the columns of ways and row (27) to a flow; nothing where the problem is
 /// too large or travel costs nothing.
 pub(super) fn add(draft: &mut Draft<'_>, travel: &Travel) -> Option<Detours> {
     let problem = draft.problem;
@@ -192,7 +192,7 @@ impl Detours {
         }
     }
 
-    /// Cuts (24) that a fractional solution violates by over `tolerance` of the
+    /// Cuts (26) that a fractional solution violates by over `tolerance` of the
     /// least length, the most violated for each edge and m.
     pub(super) fn separate(&self, values: &[f64], tolerance: f64) -> Vec<Row> {
         let value = |e: usize| match self.x[e] {
@@ -253,6 +253,58 @@ impl Fill for Detours {
             if let (Some(column), true) = (*way, known.active[e]) {
                 values[column] = known.away[known.nearer(e)];
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::design::{EdgeState, Network, Problem};
+    use crate::formulate::{Formulated, Formulation};
+
+    /// A ring of six with the sink at 0, every vertex active.
+    fn ring() -> Problem {
+        Problem {
+            vertices: 6,
+            ends: (0..6).map(|k| [k, (k + 1) % 6]).collect(),
+            lengths: vec![1.0; 6],
+            states: vec![EdgeState::Open; 6],
+            sinks: (0..6).map(|v| v == 0).collect(),
+            required_vertices: (1..6).collect(),
+            dead_ends: true,
+            length_weight: 1.0,
+            travel_weight: 1.0,
+            ..Problem::default()
+        }
+    }
+
+    #[test]
+    fn an_edge_pays_for_the_long_way_where_the_short_one_is_not_active() {
+        let problem = ring();
+        let formulated = Formulated::new(&problem, Formulation::TravelFlow, None).expect("fits");
+        // Of edge 2 from 2 to 3 the nearer end is 2 from the sink over 1, and the
+        // other 3 over 4 and 5.
+        let mut active = vec![true; 6];
+        active[1] = false;
+        let network = Network {
+            active,
+            rooms: vec![],
+        };
+        let solution = formulated.solution(&network);
+        assert!(formulated.program().violation(&solution) < 1e-9);
+        assert!(formulated.separate(&solution, 1e-6).is_empty());
+        // Edges 1 to 4 send, from 1, 2, 2 and 1 away; of edge 2 it is 3 now. The
+        // columns of ways are the last four.
+        let ways = solution.len() - 4..solution.len();
+        assert_eq!(solution[ways.clone()], [0.0, 3.0, 2.0, 1.0]);
+        let mut cheaper = solution.clone();
+        cheaper[ways.start + 1] = 2.0;
+        let rows = formulated.separate(&cheaper, 1e-6);
+        // m = 1, by edge 0 or edge 1; with more the other way is as short.
+        assert!(!rows.is_empty());
+        for row in rows {
+            let sum: f64 = row.terms.iter().map(|&(c, f)| f * cheaper[c]).sum();
+            assert!((row.low - sum - 1.0).abs() < 1e-9, "{row:?}");
         }
     }
 }

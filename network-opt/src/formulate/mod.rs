@@ -3,8 +3,8 @@
 //! One module for each family of constraints, each with its equation:
 //! `activity` (1), `dead_ends` (2), `coverage` (3), `patterns` (4, 5), `balls`
 //! (6), `flow` (7), `travel` (8), `single_sink` (9), `routes`, `rooms` (15 to
-//! 17), `parents` and `room_balls` (20 to 23), `detours`
-//! (24, 25), and `paper`, the formulation of Peng et al. 2016 as they wrote it.
+//! 17), `parents` and `room_balls` (22 to 25), `detours`
+//! (26, 27), and `paper`, the formulation of Peng et al. 2016 as they wrote it.
 
 mod activity;
 mod balls;
@@ -87,11 +87,11 @@ pub struct Cuts {
     ///
     /// Default value: `true`.
     pub balls: bool,
-    /// Room cuts (22) and (23): what rooms and connectivity say together.
+    /// Room cuts (24) and (25): what rooms and connectivity say together.
     ///
     /// Default value: `true`.
     pub rooms: bool,
-    /// Detour cuts (24): what travel and streets that are missing say together.
+    /// Detour cuts (26): what travel and streets that are missing say together.
     /// Of [`Formulation::TravelFlow`] and [`Formulation::SingleSink`].
     ///
     /// Default value: `true`.

@@ -2,7 +2,7 @@
 //!
 //! Each active vertex that is no sink has one parent, over an active edge:
 //!
-//! sum of p_vw over the edges vw at v = y_v,  p_vw + p_wv <= x_e.   (20)
+//! sum of p_vw over the edges vw at v = y_v,  p_vw + p_wv <= x_e.   (22)
 //!
 //! *Why it holds.* In a valid network every active vertex has a way to a sink;
 //! its next vertex on a shortest one is its parent, and no two vertices are each
@@ -11,11 +11,11 @@
 //! A set B of vertices of which one is active and none is a sink is left by the
 //! way from that vertex, so
 //!
-//! sum of p_vw over v in B, w outside >= 1.   (21)
+//! sum of p_vw over v in B, w outside >= 1.   (23)
 //!
 //! That says more than x(delta(B)) >= 1: an edge that joins two such sets
 //! serves as the way out of one of them only. Where networks are trees, as where
-//! dead ends are allowed, (21) is what makes a relaxation good: of the floor of
+//! dead ends are allowed, (23) is what makes a relaxation good: of the floor of
 //! 10 x 10 squares with dead ends the bound at the root goes from 13.7 to 19.7
 //! of 20. Where the cuts of [`balls`](super::balls) ask for two edges anyway, as
 //! for streets that cover a mesh, it says nothing new (measured: equal bounds to
@@ -23,14 +23,14 @@
 
 use super::draft::{Draft, Fill, Known, Term};
 
-/// The columns of rows (20).
+/// The columns of rows (22).
 #[derive(Clone, Debug)]
 pub(super) struct Parents {
     /// Each edge: whether its first (second) end has the other for its parent.
     parent: Vec<[Option<usize>; 2]>,
 }
 
-/// Adds columns and rows (20).
+/// Adds columns and rows (22).
 pub(super) fn add(draft: &mut Draft<'_>) -> Parents {
     let problem = draft.problem;
     let mut parent = vec![[None; 2]; problem.edges()];

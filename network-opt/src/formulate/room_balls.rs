@@ -8,14 +8,14 @@
 //! with both ends in B. So, with delta(B) the edges with one end in B, E(B)
 //! those with both, and p the parents of [`parents`](super::parents),
 //!
-//! p(out of B) >= R(f, B),   (22)
+//! p(out of B) >= R(f, B),   (24)
 //!
 //! and, where dead ends are forbidden and every cycle that may be active
 //! throughout has g edges at least,
 //!
-//! (g - 1) x(delta(B)) + x(E(B)) >= (2 g - 1) R(f, B).   (23)
+//! (g - 1) x(delta(B)) + x(E(B)) >= (2 g - 1) R(f, B).   (25)
 //!
-//! *Proof of (23).* Let R(f, B) be 1, and C the component of that active edge in
+//! *Proof of (25).* Let R(f, B) be 1, and C the component of that active edge in
 //! the graph of the active edges within B. C reaches a sink, which is outside B,
 //! so one active edge at least leaves C, and it is in delta(B), else it were in
 //! C. If C contains a cycle, that has g edges in E(B): (g - 1) + g. Else C is a
@@ -59,7 +59,7 @@ pub(super) struct RoomBalls {
     x: Vec<Term>,
     ends: Vec<[usize; 2]>,
     around: Vec<Vec<(usize, usize)>>,
-    /// The factors of (23) of edges that leave, of those within, and of rooms;
+    /// The factors of (25) of edges that leave, of those within, and of rooms;
     /// none where dead ends are allowed.
     factors: Option<[f64; 3]>,
     parents: Parents,
@@ -68,9 +68,9 @@ pub(super) struct RoomBalls {
 /// Which of the two rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Kind {
-    /// (22).
+    /// (24).
     Parents,
-    /// (23).
+    /// (25).
     Edges,
 }
 
@@ -188,7 +188,7 @@ impl RoomBalls {
         inside.collect()
     }
 
-    /// Rows (22) and (23) that a fractional solution violates by over
+    /// Rows (24) and (25) that a fractional solution violates by over
     /// `tolerance` rooms, at most one of each for each face.
     pub(super) fn separate(&self, values: &[f64], tolerance: f64) -> Vec<Row> {
         let value = |term: Term| match term {

@@ -116,7 +116,8 @@ impl<M: MipSolver + Sync> Race<M> {
         }
         match limits.deadline {
             Some(deadline) => {
-                let first = (&self.windows as &dyn NetworkSolver, deadline / 8);
+                let time = deadline / 8;
+                let first = (&self.windows as &dyn NetworkSolver, time, time);
                 in_turn(first, &self.exact, problem, start, limits, watch)
             }
             None => self.exact.solve(problem, start, limits, watch),
