@@ -433,6 +433,12 @@ impl<'p> Formulated<'p> {
     }
 }
 
+/// A number of edges than which no cycle has fewer that may be active throughout
+/// in a valid network; `None` if there is no cycle at all.
+pub(crate) fn least_cycle(problem: &Problem) -> Option<usize> {
+    cycles::least_cycle(&Draft::new(problem))
+}
+
 /// What the cost of every network is a multiple of, to a billionth; 0 if that
 /// is too little to be of use.
 fn step(problem: &Problem, formulation: Formulation) -> f64 {

@@ -214,9 +214,12 @@ impl RoomBalls {
                 if ball.len() == before && k != used[0] {
                     continue;
                 }
-                let part: f64 = (self.inside(f, &ball).iter())
-                    .map(|&k| value(self.r[k]))
-                    .sum();
+                let inside = self.inside(f, &ball);
+                let part: f64 = if inside.len() == placements.len() {
+                    1.0
+                } else {
+                    inside.iter().map(|&k| value(self.r[k])).sum()
+                };
                 for kind in self.kinds() {
                     let (terms, rooms) = self.left(kind, &ball);
                     let sum: f64 = terms.iter().map(|&(t, factor)| factor * value(t)).sum();
