@@ -7,16 +7,23 @@ use network_opt::design::{
     cost, verify, EdgeState, Network, Pattern, PatternKind, Placement, Problem, Rooms, Route,
     Tessellation,
 };
-use network_opt::formulate::{longest_ways, prepare, Fate, Formulated, Formulation};
+use network_opt::formulate::{longest_ways, prepare, Cuts, Fate, Formulated, Formulation};
 use network_opt::geo_types::{coord, Coord};
-use network_opt::mip::{Microlp, MipReply, MipSolver, MipStatus};
+use network_opt::mip::{Microlp, MipReply, MipSolver, MipStatus, Row};
 use network_opt::solve::{Ended, Exact, Limits, NetworkSolver};
 use proptest::prelude::*;
 use proptest::sample::subsequence;
 
+/// A thousand cases at least in long runs.
 fn config(cases: u32) -> ProptestConfig {
     let long = std::env::var_os("URBAN_LAYOUT_LONG").is_some();
-    ProptestConfig::with_cases(if long { cases * 20 } else { cases })
+    let cases = if long { cases.max(50) * 20 } else { cases };
+    ProptestConfig {
+        cases,
+        // Problems with many open edges are drawn as well, and passed over.
+        max_global_rejects: 50 * cases.max(100),
+        ..ProptestConfig::default()
+    }
 }
 
 /// Solvers hold rows to a millionth; sums here have some tens of terms of size
@@ -381,26 +388,35 @@ proptest! {
         }
     }
 
-    /// Room cuts that a random point violates hold for every valid network.
+    /// Cuts that a random point violates hold for every valid network.
     #[test]
-    fn room_cuts_cut_off_no_valid_network(recipe in recipe(), point in prop::collection::vec(0.0..1.0_f64, 40)) {
-        let mut problem = Recipe { rooms: true, ..recipe }.problem();
-        problem.travel_weight = 0.0;
+    fn cuts_cut_off_no_valid_network(
+        recipe in recipe(),
+        rooms in any::<bool>(),
+        travel in any::<bool>(),
+        point in prop::collection::vec(0.0..1.0_f64, 40),
+    ) {
+        let mut problem = Recipe { rooms, ..recipe }.problem();
+        problem.travel_weight = f64::from(u8::from(travel));
         prop_assume!(open_edges(&problem) <= 12);
-        let formulated = Formulated::new(&problem, Formulation::Flow, None).unwrap();
-        let n = formulated.program().columns().len();
-        // Little of edges, so that much is violated.
-        let values: Vec<f64> = (0..n).map(|k| point[k % point.len()].powi(4)).collect();
-        let rows = formulated.separate(&values, 0.01);
-        for row in &rows {
-            let sum: f64 = row.terms.iter().map(|&(c, factor)| factor * values[c]).sum();
-            prop_assert!(sum < row.low - 0.01 + CLOSE);
-        }
-        for network in all_valid(&problem) {
-            let solution = formulated.solution(&network);
+        let valid = all_valid(&problem);
+        for formulation in [Formulation::Flow, Formulation::TravelFlow, Formulation::SingleSink] {
+            let formulated = Formulated::new(&problem, formulation, None).unwrap();
+            let n = formulated.program().columns().len();
+            // Little of most columns, so that much is violated.
+            let values: Vec<f64> = (0..n).map(|k| point[k % point.len()].powi(4)).collect();
+            let rows = formulated.separate(&values, 0.01);
+            let sum = |row: &Row, values: &[f64]| -> f64 {
+                row.terms.iter().map(|&(c, factor)| factor * values[c]).sum()
+            };
             for row in &rows {
-                let sum: f64 = row.terms.iter().map(|&(c, factor)| factor * solution[c]).sum();
-                prop_assert!(sum >= row.low - CLOSE, "{row:?}");
+                prop_assert!(sum(row, &values) < row.low - 0.01 + CLOSE);
+            }
+            for network in &valid {
+                let solution = formulated.solution(network);
+                for row in &rows {
+                    prop_assert!(sum(row, &solution) >= row.low - CLOSE, "{formulation:?}: {row:?}");
+                }
             }
         }
     }
@@ -487,13 +503,15 @@ proptest! {
 }
 
 fn solved(problem: &Problem) -> Option<f64> {
+    solved_by(&Exact::new(Microlp), problem)
+}
+
+fn solved_by(solver: &impl NetworkSolver, problem: &Problem) -> Option<f64> {
     let limits = Limits {
         deadline: None,
         ..Limits::default()
     };
-    let found = Exact::new(Microlp)
-        .solve(problem, None, &limits, &mut |_| true)
-        .unwrap();
+    let found = solver.solve(problem, None, &limits, &mut |_| true).unwrap();
     match found.ended {
         Ended::Proven => {
             assert!(found.bound <= found.cost.objective + 1e-6);
@@ -535,6 +553,18 @@ proptest! {
             (None, after) => prop_assert_eq!(after, None),
             (Some(before), Some(after)) => prop_assert!(after >= before - CLOSE),
             (Some(_), None) => {}
+        }
+    }
+
+    /// The exact solver finds the same without any cuts.
+    #[test]
+    fn cuts_change_no_optimum(recipe in recipe()) {
+        let problem = recipe.problem();
+        prop_assume!(open_edges(&problem) <= 10);
+        let plain = Exact { cuts: Cuts::none(), ..Exact::new(Microlp) };
+        match (solved(&problem), solved_by(&plain, &problem)) {
+            (Some(a), Some(b)) => prop_assert!((a - b).abs() < CLOSE, "{a} and {b}"),
+            (a, b) => prop_assert_eq!(a, b),
         }
     }
 

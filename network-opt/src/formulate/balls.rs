@@ -41,11 +41,12 @@ use super::draft::{Draft, Term};
 /// Adds cuts (6a) or (6b) for each set of coverage.
 pub(super) fn add(draft: &mut Draft<'_>) {
     let sets = least_sets(draft);
+    let patterns = never(draft);
     for set in sets {
         if set.iter().any(|&v| draft.s[v] == Term::On) {
             continue;
         }
-        for (edges, least) in cuts(draft, &set, &BTreeSet::new()) {
+        for (edges, least) in cuts(draft, &set, &patterns) {
             // Where a sink is placed within, the cut says nothing.
             let placed = set.iter().map(|&v| (draft.s[v], least));
             let terms = edges.iter().map(|&e| (draft.x[e], 1.0)).chain(placed);
@@ -56,18 +57,14 @@ pub(super) fn add(draft: &mut Draft<'_>) {
 }
 
 /// Sets of edges with the number of them that is active at least, if one of the
-/// vertices of `set`, none a sink, is active and no edge of `without` is.
-pub(super) fn cuts(
-    draft: &Draft<'_>,
-    set: &[usize],
-    without: &BTreeSet<usize>,
-) -> Vec<(Vec<usize>, f64)> {
+/// vertices of `set`, none a sink, is active.
+fn cuts(draft: &Draft<'_>, set: &[usize], never: &[Vec<usize>]) -> Vec<(Vec<usize>, f64)> {
     let ball: BTreeSet<usize> = set.iter().copied().collect();
     let mut within = BTreeSet::new();
     let mut leaving = BTreeSet::new();
     for &v in set {
         for &(e, w) in &draft.around[v] {
-            if !draft.possible(e) || without.contains(&e) {
+            if !draft.possible(e) {
                 continue;
             }
             if ball.contains(&w) {
@@ -84,7 +81,14 @@ pub(super) fn cuts(
     let edges: Vec<(usize, [usize; 2])> = (within.iter())
         .map(|&e| (e, draft.problem.ends[e]))
         .collect();
-    let sets = meeting_sets(&edges, &forbidden(draft, &within));
+    // The patterns of each edge, by their first.
+    let mut forbidden: Vec<Vec<usize>> = Vec::new();
+    for &e in &within {
+        let patterns = never[e].iter().map(|&p| &draft.problem.patterns[p].active);
+        let inside = patterns.filter(|active| active.iter().all(|k| within.contains(k)));
+        forbidden.extend(inside.cloned());
+    }
+    let sets = meeting_sets(&edges, &forbidden);
     let cuts = sets.into_iter().map(|k| {
         let mut cut = leaving.clone();
         cut.extend(k);
@@ -93,11 +97,15 @@ pub(super) fn cuts(
     cuts.collect()
 }
 
-/// Sets of edges within `within` that are never all active.
-fn forbidden(draft: &Draft<'_>, within: &BTreeSet<usize>) -> Vec<Vec<usize>> {
-    let patterns = draft.problem.patterns.iter().filter(|p| {
-        let plain = p.cost.is_none() && p.inactive.iter().all(|&e| draft.x[e] == Term::Off);
-        plain && p.active.iter().all(|e| within.contains(e))
-    });
-    patterns.map(|p| p.active.clone()).collect()
+/// For each edge, the patterns whose edges are never all active, listed at the
+/// first of them.
+fn never(draft: &Draft<'_>) -> Vec<Vec<usize>> {
+    let mut never = vec![Vec::new(); draft.problem.edges()];
+    for (k, pattern) in draft.problem.patterns.iter().enumerate() {
+        let plain = pattern.inactive.iter().all(|&e| draft.x[e] == Term::Off);
+        if let (None, true, Some(&first)) = (pattern.cost, plain, pattern.active.first()) {
+            never[first].push(k);
+        }
+    }
+    never
 }

@@ -35,12 +35,18 @@ pub(super) fn least_sets(draft: &Draft<'_>) -> Vec<Vec<usize>> {
         })
         .collect();
     sets.sort_by(|a, b| a.len().cmp(&b.len()).then_with(|| a.cmp(b)));
-    let mut kept: Vec<BTreeSet<usize>> = Vec::new();
+    // By their first vertex, which is in every set that holds them.
+    let mut kept: Vec<Vec<BTreeSet<usize>>> = vec![Vec::new(); draft.problem.vertices];
+    let mut empty = false;
     sets.retain(|set| {
         let own: BTreeSet<usize> = set.iter().copied().collect();
-        let free = !kept.iter().any(|smaller| smaller.is_subset(&own));
+        let mut smaller = own.iter().flat_map(|&v| &kept[v]);
+        let free = !empty && !smaller.any(|smaller| smaller.is_subset(&own));
         if free {
-            kept.push(own);
+            match set.first() {
+                Some(&first) => kept[first].push(own),
+                None => empty = true,
+            }
         }
         free
     });

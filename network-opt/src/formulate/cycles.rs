@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use super::draft::{Draft, Term};
+
 /// Steps of the search for cycles before it is given up.
 const STEPS: usize = 20_000;
 /// Sets of edges that are kept.
@@ -99,6 +101,90 @@ impl Search<'_> {
             .iter()
             .any(|set| set.contains(&last) && set.iter().all(|e| self.path.contains(e)))
     }
+}
+
+/// Edges of a cycle from which on its length is not told any more.
+const LONGEST: usize = 12;
+/// Steps of the search for the least cycle before it is given up.
+const LEAST_STEPS: usize = 2_000_000;
+
+/// A number of edges than which no cycle has fewer that may be active
+/// throughout; `None` if there is no cycle at all.
+pub(super) fn least_cycle(draft: &Draft<'_>) -> Option<usize> {
+    let possible: Vec<usize> = (0..draft.problem.edges())
+        .filter(|&e| draft.possible(e))
+        .collect();
+    let ends: Vec<(usize, [usize; 2])> = (possible.iter())
+        .map(|&e| (e, draft.problem.ends[e]))
+        .collect();
+    if outside_forest(&ends).is_empty() {
+        return None;
+    }
+    let mut forbidden: Vec<Vec<&[usize]>> = vec![Vec::new(); draft.problem.edges()];
+    for pattern in draft.problem.patterns.iter().filter(|p| p.cost.is_none()) {
+        if pattern.inactive.iter().all(|&e| draft.x[e] == Term::Off) {
+            for &e in &pattern.active {
+                forbidden[e].push(&pattern.active);
+            }
+        }
+    }
+    let mut steps = 0;
+    // Two edges with the same ends are a cycle.
+    for length in 2..LONGEST {
+        let mut path = Vec::new();
+        for root in 0..draft.problem.vertices {
+            let mut on_path = vec![root];
+            let found = closes(
+                draft,
+                &forbidden,
+                length,
+                &mut path,
+                &mut on_path,
+                &mut steps,
+            );
+            if found || steps > LEAST_STEPS {
+                return Some(length);
+            }
+        }
+    }
+    Some(LONGEST)
+}
+
+/// Whether a path from its first vertex can be closed to a cycle of `length`
+/// edges over vertices after that.
+fn closes(
+    draft: &Draft<'_>,
+    forbidden: &[Vec<&[usize]>],
+    length: usize,
+    path: &mut Vec<usize>,
+    on_path: &mut Vec<usize>,
+    steps: &mut usize,
+) -> bool {
+    *steps += 1;
+    let (root, at) = (on_path[0], on_path[on_path.len() - 1]);
+    let last = path.len() + 1 == length;
+    for &(e, to) in &draft.around[at] {
+        let goes = if last {
+            to == root
+        } else {
+            to > root && !on_path.contains(&to)
+        };
+        if !goes || !draft.possible(e) || path.contains(&e) || *steps > LEAST_STEPS {
+            continue;
+        }
+        path.push(e);
+        on_path.push(to);
+        let allowed = !forbidden[e]
+            .iter()
+            .any(|set| set.iter().all(|k| path.contains(k)));
+        let found = allowed && (last || closes(draft, forbidden, length, path, on_path, steps));
+        path.pop();
+        on_path.pop();
+        if found {
+            return true;
+        }
+    }
+    false
 }
 
 /// Sets with an edge of each cycle: an edge of the shortest cycle that is not
@@ -205,6 +291,38 @@ mod tests {
         }
         // A tree has no cycle.
         assert_eq!(meeting_sets(&window()[..4], &[]), [Vec::<usize>::new()]);
+    }
+
+    #[test]
+    fn the_least_cycle_has_no_forbidden_pattern() {
+        let ends: Vec<[usize; 2]> = window().into_iter().map(|(_, ends)| ends).collect();
+        let pattern = |active| crate::design::Pattern {
+            kind: crate::design::PatternKind::TooClose,
+            active,
+            inactive: vec![],
+            cost: None,
+        };
+        let mut problem = crate::design::Problem {
+            vertices: 9,
+            lengths: vec![1.0; ends.len()],
+            states: vec![Default::default(); ends.len()],
+            sinks: (0..9).map(|v| v == 4).collect(),
+            ends,
+            length_weight: 1.0,
+            dead_ends: true,
+            ..Default::default()
+        };
+        // A pane; without too close edges only the frame.
+        assert_eq!(least_cycle(&Draft::new(&problem)), Some(4));
+        problem.patterns = too_close().into_iter().map(pattern).collect();
+        assert_eq!(least_cycle(&Draft::new(&problem)), Some(8));
+        // Without one of its edges none, which is not noticed; but all that is
+        // looked for are cycles of less than twelve.
+        problem.states[0] = crate::design::EdgeState::Closed;
+        assert_eq!(least_cycle(&Draft::new(&problem)), Some(LONGEST));
+        // A tree has none.
+        problem.states[1..6].fill(crate::design::EdgeState::Closed);
+        assert_eq!(least_cycle(&Draft::new(&problem)), None);
     }
 
     #[test]

@@ -3,8 +3,9 @@
 //! One module for each family of constraints, each with its equation:
 //! `activity` (1), `dead_ends` (2), `coverage` (3), `patterns` (4, 5), `balls`
 //! (6), `flow` (7), `travel` (8), `single_sink` (9), `routes`, `rooms` (15 to
-//! 19), `sinks` (20), and `paper`, the formulation of Peng et al. 2016 as they wrote it.
-//! With one-way streets `arcs` (10 to 12) and `one_way` (13, 14) take the place of
+//! 17, 20 and 21), `parents` and `room_balls` (22 to 25), `detours` (26, 27), `sinks`
+//! (28), and `paper`, the formulation of Peng et al. 2016 as they wrote it. With
+//! one-way streets `arcs` (10 to 12) and `one_way` (13, 14) take the place of
 //! `flow` and `travel`; these two have numbers of their own.
 
 mod activity;
@@ -13,13 +14,16 @@ mod balls;
 mod coverage;
 mod cycles;
 mod dead_ends;
+mod detours;
 mod draft;
 mod flow;
 mod one_way;
 mod paper;
+mod parents;
 mod patterns;
 mod prepare;
 mod reach;
+mod room_balls;
 mod rooms;
 mod routes;
 mod single_sink;
@@ -30,7 +34,9 @@ use crate::design::{Heading, Network, Problem, Streets};
 use crate::error::DesignError;
 use crate::mip::{Program, Row};
 
+use detours::Detours;
 use draft::{Draft, Fill, Known, Term};
+use room_balls::RoomBalls;
 
 pub use prepare::{prepare, Fate};
 pub use single_sink::longest_ways;
@@ -84,6 +90,54 @@ impl Formulation {
     }
 }
 
+/// Families of cuts: rows that every valid network meets and that fractions do
+/// not. Without them programs have the same solutions, and worse bounds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Cuts {
+    /// Ball cuts (6): what coverage and connectivity say together.
+    ///
+    /// Default value: `true`.
+    pub balls: bool,
+    /// Room cuts (24) and (25): what rooms and connectivity say together.
+    ///
+    /// Default value: `true`.
+    pub rooms: bool,
+    /// Detour cuts (26): what travel and streets that are missing say together.
+    /// Of [`Formulation::TravelFlow`] and [`Formulation::SingleSink`].
+    ///
+    /// Default value: `true`.
+    pub detours: bool,
+}
+
+impl Default for Cuts {
+    fn default() -> Self {
+        Self::all()
+    }
+}
+
+impl Cuts {
+    /// All of them.
+    #[must_use]
+    pub const fn all() -> Self {
+        Self {
+            balls: true,
+            rooms: true,
+            detours: true,
+        }
+    }
+
+    /// None of them.
+    #[must_use]
+    pub const fn none() -> Self {
+        Self {
+            balls: false,
+            rooms: false,
+            detours: false,
+        }
+    }
+}
+
 /// A problem as an integer program.
 #[derive(Debug)]
 pub struct Formulated<'p> {
@@ -94,6 +148,8 @@ pub struct Formulated<'p> {
     arcs: Option<arcs::Arcs>,
     rooms: Option<usize>,
     placed: sinks::Placed,
+    room_balls: Option<RoomBalls>,
+    detours: Option<Detours>,
     families: Vec<Family>,
     contradicts: bool,
     longest: Option<Vec<f64>>,
@@ -152,6 +208,20 @@ impl<'p> Formulated<'p> {
         formulation: Formulation,
         longest: Option<Vec<f64>>,
     ) -> Result<Self, DesignError> {
+        Self::with_cuts(problem, formulation, longest, Cuts::default())
+    }
+
+    /// As [`Formulated::new`], with some families of cuts only.
+    ///
+    /// # Errors
+    ///
+    /// [`DesignError::BadProblem`] if the problem does not fit together.
+    pub fn with_cuts(
+        problem: &'p Problem,
+        formulation: Formulation,
+        longest: Option<Vec<f64>>,
+        cuts: Cuts,
+    ) -> Result<Self, DesignError> {
         problem.check()?;
         let formulation = match formulation {
             Formulation::Recommended => Formulation::for_problem(problem),
@@ -169,8 +239,14 @@ impl<'p> Formulated<'p> {
         plain(Box::new(routes::add(&mut draft, tight)));
         if tight {
             plain(Box::new(patterns::add(&mut draft)));
-            balls::add(&mut draft);
+            if cuts.balls {
+                balls::add(&mut draft);
+            }
         }
+        let mut detours = None;
+        // What follows is proven for sinks that are known and streets that run
+        // both ways.
+        let plainly = problem.placed.is_none() && !problem.has_one_way();
         let plain_columns = draft.program.columns().len();
         let arcs = problem.has_one_way().then(|| arcs::add(&mut draft));
         if let Some(arcs) = &arcs {
@@ -192,18 +268,36 @@ impl<'p> Formulated<'p> {
                 plain(Box::new(flow::add(&mut draft)));
             }
             Formulation::TravelFlow => {
-                plain(Box::new(travel::add(&mut draft)));
+                let travel = travel::add(&mut draft);
+                if cuts.detours && plainly {
+                    detours = detours::add(&mut draft, &travel);
+                    if let Some(detours) = &detours {
+                        plain(Box::new(detours.clone()));
+                    }
+                }
+                plain(Box::new(travel));
                 if flow::has_orphans(&draft) {
                     plain(Box::new(flow::add(&mut draft)));
                 }
             }
             Formulation::SingleSink => {
-                plain(Box::new(single_sink::add(&mut draft, longest.as_deref())));
+                let ways = single_sink::add(&mut draft, longest.as_deref());
+                if cuts.detours && plainly {
+                    detours = detours::of(&draft, ways.ways());
+                }
+                plain(Box::new(ways));
             }
             Formulation::Paper => plain(Box::new(paper::add(&mut draft))),
         }
         let room_columns = draft.program.columns().len();
+        let mut room_balls = None;
         let rooms = rooms::add(&mut draft, tight).map(|rooms| {
+            if tight && cuts.rooms && plainly {
+                let parents = parents::add(&mut draft);
+                families.push(Family::Plain(Box::new(parents.clone())));
+                let (r, holding) = (&rooms.r, &rooms.holding);
+                room_balls = Some(RoomBalls::add(&mut draft, r, holding, parents));
+            }
             families.push(Family::Rooms(rooms));
             families.len() - 1
         });
@@ -217,6 +311,8 @@ impl<'p> Formulated<'p> {
             arcs,
             rooms,
             placed,
+            room_balls,
+            detours,
             families,
             contradicts: draft.contradicts,
             longest,
@@ -308,10 +404,17 @@ impl<'p> Formulated<'p> {
     }
 
     /// Valid rows that a solution of the relaxation violates by over
-    /// `tolerance`: room cuts, which are too many to write all of them down.
+    /// `tolerance`: room cuts and detour cuts, which are too many to write all of
+    /// them down.
     #[must_use]
     pub fn separate(&self, values: &[f64], tolerance: f64) -> Vec<Row> {
-        (self.room_family()).map_or_else(Vec::new, |rooms| rooms.separate(values, tolerance))
+        let rooms = self.room_balls.iter();
+        let mut rows: Vec<Row> = rooms
+            .flat_map(|balls| balls.separate(values, tolerance))
+            .collect();
+        let detours = self.detours.iter();
+        rows.extend(detours.flat_map(|detours| detours.separate(values, tolerance)));
+        rows
     }
 
     /// The program with all edges and their directions as in `network` but those
@@ -358,7 +461,7 @@ impl<'p> Formulated<'p> {
     /// Whether there are any such rows.
     #[must_use]
     pub fn separates(&self) -> bool {
-        self.rooms.is_some()
+        self.room_balls.is_some() || self.detours.is_some()
     }
 
     /// Adds a row that all valid networks meet.
@@ -402,6 +505,12 @@ fn knows_ways(problem: &Problem, formulation: Formulation) -> Result<(), DesignE
              travel costs something) or Recommended"
         ),
     })
+}
+
+/// A number of edges than which no cycle has fewer that may be active throughout
+/// in a valid network; `None` if there is no cycle at all.
+pub(crate) fn least_cycle(problem: &Problem) -> Option<usize> {
+    cycles::least_cycle(&Draft::new(problem))
 }
 
 /// What the cost of every network is a multiple of, to a billionth; 0 if that

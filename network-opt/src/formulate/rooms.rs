@@ -10,23 +10,8 @@
 //! share its two faces; the paper's one row a room, n R <= sum of (1 - x_e), is
 //! weaker for fractions.
 //!
-//! **Room cuts.** The border of a room that is placed has an active edge, so one
-//! of its vertices B is active; if none of them is a sink, the ball cuts of
-//! [`balls`](super::balls) hold with R on the right hand side, and without the
-//! edges inside the room, which are inactive then:
-//!
-//! x(delta(B)) + x(K) >= 2 R.   (18)
-//!
-//! Alone they say little of a fraction of a room. But exactly one of the rooms
-//! that hold a face is placed, so for any of them, Q, with the union U of their
-//! sets delta(B) and K,
-//!
-//! x(U) >= 2 sum of R over Q:   (19)
-//!
-//! if one of Q is placed, its own row (18) implies it; if none is, it says
-//! nothing. Where fractions of all rooms that hold a face are in Q the right
-//! hand side is 2. There are too many sets Q to write down; [`Rooms::separate`]
-//! finds those that a fractional solution violates.
+//! What rooms, connectivity and the ban of dead ends say together is cut off in
+//! [`room_balls`](super::room_balls).
 //!
 //! **Counts and wishes** are linear in the rooms. For each count
 //!
@@ -42,23 +27,16 @@
 
 use std::collections::BTreeSet;
 
-use super::balls::cuts;
 use super::draft::{Draft, Fill, Known, Term};
 use crate::design::RoomWish;
-use crate::mip::Row;
 
-/// The columns of rooms, and what cuts are made of.
+/// The columns of rooms.
 #[derive(Debug)]
 pub(super) struct Rooms {
     /// Each placement; off if it holds an obstacle or has an active edge inside.
-    r: Vec<Term>,
+    pub(super) r: Vec<Term>,
     /// The placements of each face that may be placed.
-    holding: Vec<Vec<usize>>,
-    /// Sets of edges with the number that is active at least if the room is
-    /// placed: (18). Empty where its border touches a sink.
-    cuts: Vec<Vec<(Vec<usize>, f64)>>,
-    /// Each edge.
-    x: Vec<Term>,
+    pub(super) holding: Vec<Vec<usize>>,
     /// Wishes that cost something, and their columns.
     z: Vec<(usize, usize)>,
     wishes: Vec<RoomWish>,
@@ -112,25 +90,10 @@ pub(super) fn add(draft: &mut Draft<'_>, tight: bool) -> Option<Rooms> {
         terms.push((r[k], 1.0));
         draft.row(f64::NEG_INFINITY, 0.0, terms);
     }
-    // Where a sink may be placed they would need its column; there are few such
-    // borders.
-    let sinks = draft.problem.possible_sinks();
     let z = wishes(draft, &r);
-    let cuts = rooms.placements.iter().zip(&r).map(|(placement, &r)| {
-        let ends = placement.border.iter().flat_map(|&e| draft.problem.ends[e]);
-        let ball: BTreeSet<usize> = ends.collect();
-        if r == Term::Off || ball.iter().any(|&v| sinks[v]) {
-            return Vec::new();
-        }
-        let ball: Vec<usize> = ball.into_iter().collect();
-        let without = placement.inner.iter().copied().collect();
-        cuts(draft, &ball, &without)
-    });
     Some(Rooms {
-        cuts: cuts.collect(),
         r,
         holding,
-        x: draft.x.clone(),
         z,
         wishes: rooms.wishes.clone(),
     })
@@ -169,76 +132,6 @@ fn wishes(draft: &mut Draft<'_>, r: &[Term]) -> Vec<(usize, usize)> {
 }
 
 impl Rooms {
-    /// Rows (19) that a fractional solution violates by over `tolerance`, at
-    /// most one for each face.
-    pub(super) fn separate(&self, values: &[f64], tolerance: f64) -> Vec<Row> {
-        let value = |term: Term| match term {
-            Term::Off => 0.0,
-            Term::On => 1.0,
-            Term::Column(column) => values[column],
-        };
-        let mut rows: Vec<Row> = Vec::new();
-        for placements in &self.holding {
-            // The rooms by how much their own cuts lack, relative to their part.
-            let mut used: Vec<usize> = (placements.iter().copied())
-                .filter(|&k| value(self.r[k]) > 1e-6 && !self.cuts[k].is_empty())
-                .collect();
-            used.sort_by(|&a, &b| {
-                value(self.r[b])
-                    .total_cmp(&value(self.r[a]))
-                    .then(a.cmp(&b))
-            });
-            let mut union: BTreeSet<usize> = BTreeSet::new();
-            let (mut part, mut best) = (0.0, (tolerance, 0));
-            let mut unions = Vec::new();
-            for (n, &k) in used.iter().enumerate() {
-                let added = |edges: &[usize]| -> f64 {
-                    let new = edges.iter().filter(|e| !union.contains(e));
-                    new.map(|&e| value(self.x[e])).sum()
-                };
-                let least = self.cuts[k]
-                    .iter()
-                    .min_by(|a, b| added(&a.0).total_cmp(&added(&b.0)));
-                let (edges, wanted) = least.expect("cuts are not empty");
-                union.extend(edges);
-                part += wanted * value(self.r[k]);
-                let sum: f64 = union.iter().map(|&e| value(self.x[e])).sum();
-                if part - sum > best.0 {
-                    best = (part - sum, n + 1);
-                }
-                unions.push((union.clone(), *wanted));
-            }
-            if best.1 == 0 {
-                continue;
-            }
-            let (edges, wanted) = &unions[best.1 - 1];
-            let mut low = 0.0;
-            let mut terms = Vec::new();
-            for &e in edges {
-                match self.x[e] {
-                    Term::Column(column) => terms.push((column, 1.0)),
-                    Term::On => low -= 1.0,
-                    Term::Off => {}
-                }
-            }
-            for &k in &used[..best.1] {
-                if let Term::Column(column) = self.r[k] {
-                    terms.push((column, -wanted));
-                }
-            }
-            terms.sort_unstable_by_key(|&(column, _)| column);
-            let row = Row {
-                terms,
-                low,
-                high: f64::INFINITY,
-            };
-            if !rows.contains(&row) {
-                rows.push(row);
-            }
-        }
-        rows
-    }
-
     /// The column of a placement, if it may be placed.
     pub(super) fn column(&self, placement: usize) -> Option<usize> {
         match self.r[placement] {

@@ -261,6 +261,13 @@ pub(super) fn add(draft: &mut Draft<'_>, longest: Option<&[f64]>) -> Distances {
     columns
 }
 
+impl Distances {
+    /// The column of what each edge is charged.
+    pub(super) fn ways(&self) -> Vec<Option<usize>> {
+        self.cost.clone()
+    }
+}
+
 impl Fill for Distances {
     fn fill(&self, known: &Known<'_>, values: &mut [f64]) {
         for (v, distance) in self.distance.iter().enumerate() {

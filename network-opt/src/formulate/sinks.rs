@@ -3,7 +3,7 @@
 //! With a column s_v for each candidate v, k of which become sinks, each of
 //! them active
 //!
-//! sum of s_v = k,  s_v <= y_v.   (20)
+//! sum of s_v = k,  s_v <= y_v.   (28)
 //!
 //! What other families say of sinks holds of a candidate if s_v is 1. It may be
 //! a dead end, and needs no edge or half-edge that goes on,
@@ -21,14 +21,14 @@
 
 use super::draft::{Draft, Fill, Known, Term};
 
-/// The columns of rows (20).
+/// The columns of rows (28).
 #[derive(Debug)]
 pub(super) struct Placed {
     /// Vertex and column.
     s: Vec<(usize, usize)>,
 }
 
-/// Adds columns and rows (20), if there are sinks to be placed.
+/// Adds columns and rows (28), if there are sinks to be placed.
 pub(super) fn add(draft: &mut Draft<'_>) -> Placed {
     let mut s = Vec::new();
     let Some(placed) = &draft.problem.placed else {

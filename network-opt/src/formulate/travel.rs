@@ -88,6 +88,19 @@ pub(super) fn add(draft: &mut Draft<'_>) -> Travel {
     travel
 }
 
+impl Travel {
+    /// Whether an edge sends traffic if it is active.
+    pub(super) fn sends(&self, edge: usize) -> bool {
+        self.sent[edge][0].is_some()
+    }
+
+    /// The columns of the flow over an edge, one for each direction in which
+    /// there may be some.
+    pub(super) fn flows(&self, edge: usize) -> impl Iterator<Item = usize> + '_ {
+        self.along[edge].iter().flatten().copied()
+    }
+}
+
 impl Fill for Travel {
     fn fill(&self, known: &Known<'_>, values: &mut [f64]) {
         let mut carried = vec![0.0; known.problem.vertices];

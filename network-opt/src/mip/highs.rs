@@ -197,6 +197,10 @@ fn attempt(
     answer(program, &mut solved, shared)
 }
 
+/// Factors of a linear program from which on the interior point method is
+/// faster: a relaxation of a floorplan of 20,000 takes 0.9 s, by simplex 3.5 s.
+const LARGE: usize = 10_000;
+
 fn configure(model: &mut Model, program: &Program, limits: &Limits, presolve: bool) -> Option<()> {
     let threads = u32::try_from(limits.threads)
         .unwrap_or(u32::MAX)
@@ -216,6 +220,9 @@ fn configure(model: &mut Model, program: &Program, limits: &Limits, presolve: bo
         .ok()?;
     if !presolve {
         model.try_set_option("presolve", "off").ok()?;
+    }
+    if program.columns().iter().all(|c| !c.integer) && program.nonzeros() > LARGE {
+        model.try_set_option("solver", "ipm").ok()?;
     }
     if program.step() > 0.0 {
         // Less than a step, by more than what HiGHS holds a solution feasible for.

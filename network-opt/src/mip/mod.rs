@@ -99,9 +99,9 @@ pub trait MipSolver {
     /// Looks for the solution of least cost, from `start` on if that is given
     /// and meets all rows. Linear programs are solved too.
     ///
-    /// The watch is called at least five times a second if the solver can:
-    /// HiGHS keeps a deadline within half a second and a watch's no within
-    /// 0.2 s; [`Microlp`] may be late by the time of one linear program.
+    /// The watch is called at least five times a second; a deadline is kept
+    /// within half a second and a watch's no within 0.2 s. A solver that does not
+    /// look up in time is left behind, with the best that it has told of.
     ///
     /// # Errors
     ///

@@ -4,7 +4,7 @@ use super::record::{Pool, Record};
 use super::{Ended, Limits, NetworkSolver, Outcome, Watch};
 use crate::design::{verify, Network, Problem};
 use crate::error::DesignError;
-use crate::formulate::{longest_ways, Formulated, Formulation};
+use crate::formulate::{longest_ways, Cuts, Formulated, Formulation};
 use crate::mip::{MipProgress, MipReply, MipSolver, MipStatus};
 
 /// Solves problems as integer programs.
@@ -44,10 +44,15 @@ pub struct Exact<M> {
     /// Default value: [`Formulation::Recommended`].
     pub formulation: Formulation,
     /// Rounds of cuts at most that are added where a solution of the relaxation
-    /// violates them, before the search: room cuts.
+    /// violates them, before the search: room cuts. They have half of the time at
+    /// most.
     ///
     /// Default value: 12.
     pub rounds: usize,
+    /// Families of cuts that programs have.
+    ///
+    /// Default value: all of them.
+    pub cuts: Cuts,
 }
 
 impl<M> Exact<M> {
@@ -57,6 +62,7 @@ impl<M> Exact<M> {
             solver,
             formulation: Formulation::Recommended,
             rounds: 12,
+            cuts: Cuts::all(),
         }
     }
 }
@@ -103,7 +109,7 @@ impl<M: MipSolver> Exact<M> {
             }
             longest = (record.best.as_ref()).map(|(_, cost)| longest_ways(problem, cost.objective));
         }
-        let mut formulated = Formulated::new(problem, formulation, longest)?;
+        let mut formulated = Formulated::with_cuts(problem, formulation, longest, self.cuts)?;
         if formulated.contradicts() {
             return Ok(record.outcome(Ended::Infeasible));
         }
@@ -162,7 +168,7 @@ impl<M: MipSolver> Exact<M> {
         limits: &Limits,
         mut record: Record<'_, '_>,
     ) -> Result<Outcome, DesignError> {
-        let mut flow = Formulated::new(problem, Formulation::Flow, None)?;
+        let mut flow = Formulated::with_cuts(problem, Formulation::Flow, None, self.cuts)?;
         if flow.contradicts() {
             return Ok(record.outcome(Ended::Infeasible));
         }
@@ -174,7 +180,7 @@ impl<M: MipSolver> Exact<M> {
             return Ok(record.outcome(run.ended()));
         };
         let longest = (formulation == Formulation::SingleSink).then(|| longest_ways(problem, high));
-        let mut travel = Formulated::new(problem, formulation, longest)?;
+        let mut travel = Formulated::with_cuts(problem, formulation, longest, self.cuts)?;
         travel.limit_length(record.bound - 1e-6, high);
         let left = record.left(limits);
         let run = self.run(&travel, &left, &mut record, Until::Proof)?;
@@ -193,7 +199,7 @@ impl<M: MipSolver> Exact<M> {
             travel_weight: 0.0,
             ..record.problem.clone()
         };
-        let formulated = Formulated::new(&shortest, Formulation::Flow, None)?;
+        let formulated = Formulated::with_cuts(&shortest, Formulation::Flow, None, self.cuts)?;
         if formulated.contradicts() {
             return Ok(Ended::Infeasible);
         }
@@ -209,28 +215,33 @@ impl<M: MipSolver> Exact<M> {
         limits: &Limits,
         record: &mut Record<'_, '_>,
     ) -> Result<(), DesignError> {
-        // A fifth of the time at most.
-        let budget = limits.deadline.map(|deadline| deadline / 5);
+        // Half of the time at most: of rooms most of the bound is made here.
+        let budget = limits.deadline.map(|deadline| deadline / 2);
+        if !formulated.separates() {
+            return Ok(());
+        }
         for _ in 0..self.rounds {
-            if record.cancelled || budget.is_some_and(|budget| record.began.elapsed() > budget) {
+            if record.cancelled || record.is_within(limits.gap) {
                 break;
             }
-            if !formulated.separates() {
+            let left = budget.map(|budget| budget.saturating_sub(record.began.elapsed()));
+            if left.is_some_and(|left| left.is_zero()) {
                 break;
             }
             let relaxed = formulated.program().relaxed();
             let limits = Limits {
-                deadline: budget.map(|budget| budget.saturating_sub(record.began.elapsed())),
+                deadline: left,
                 ..limits.clone()
             };
             let found = self.solver.solve(&relaxed, None, &limits, &mut |_| {
-                record.report(false).into()
+                let received = record.receive();
+                record.report(received).into()
             })?;
             let (MipStatus::Optimal, Some(values)) = (found.status, &found.solution) else {
                 break;
             };
             record.raise(formulated.program().rounded(found.objective));
-            let rows = formulated.separate(values, 0.05);
+            let rows = formulated.separate(values, 0.02);
             if rows.is_empty() {
                 break;
             }
@@ -249,6 +260,12 @@ impl<M: MipSolver> Exact<M> {
     ) -> Result<Run, DesignError> {
         if record.cancelled {
             return Ok(Run::Ended(Ended::Cancelled));
+        }
+        if until == Until::Proof && record.is_within(limits.gap) {
+            return Ok(Run::Ended(Ended::Proven));
+        }
+        if limits.deadline.is_some_and(|deadline| deadline.is_zero()) {
+            return Ok(Run::Ended(Ended::Deadline));
         }
         let start = record
             .best

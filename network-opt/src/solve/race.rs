@@ -101,7 +101,7 @@ impl<M: MipSolver + Sync> NetworkSolver for Race<M> {
 }
 
 impl<M: MipSolver + Sync> Race<M> {
-    /// A quarter of the time for windows, where the program is too large for its
+    /// An eighth of the time for windows, where the program is too large for its
     /// solver to find good networks by itself.
     fn in_turn(
         &self,
@@ -116,7 +116,8 @@ impl<M: MipSolver + Sync> Race<M> {
         }
         match limits.deadline {
             Some(deadline) => {
-                let first = (&self.windows as &dyn NetworkSolver, deadline / 4);
+                let time = deadline / 8;
+                let first = (&self.windows as &dyn NetworkSolver, time, time);
                 in_turn(first, &self.exact, problem, start, limits, watch)
             }
             None => self.exact.solve(problem, start, limits, watch),

@@ -7,7 +7,7 @@ use super::record::{Pool, Record};
 use super::{Ended, Exact, Limits, NetworkSolver, Outcome, Watch};
 use crate::design::{Network, Problem};
 use crate::error::DesignError;
-use crate::formulate::{longest_ways, prepare, Fate, Formulated, Formulation};
+use crate::formulate::{longest_ways, prepare, Cuts, Fate, Formulated, Formulation};
 use crate::mip::{MipSolver, MipStatus};
 
 /// Improves networks by windows that slide over the mesh: the edges near one
@@ -91,6 +91,13 @@ impl<M: MipSolver> Windows<M> {
     /// holds all edges.
     fn slide(&self, limits: &Limits, record: &mut Record<'_, '_>) -> Result<Ended, DesignError> {
         let problem = record.problem;
+        let is_late = |record: &Record<'_, '_>| {
+            let left = record.left(limits).deadline;
+            left.is_some_and(|left| left.is_zero())
+        };
+        if is_late(record) {
+            return Ok(Ended::Deadline);
+        }
         let cost = record
             .best
             .as_ref()
@@ -102,7 +109,12 @@ impl<M: MipSolver> Windows<M> {
             Formulation::Recommended if problem.travel_weight > 0.0 => Formulation::TravelFlow,
             other => other,
         };
-        let formulated = Formulated::new(problem, formulation, Some(longest))?;
+        // A window is solved whatever its relaxation is worth.
+        let cuts = Cuts {
+            balls: true,
+            ..Cuts::none()
+        };
+        let formulated = Formulated::with_cuts(problem, formulation, Some(longest), cuts)?;
         let open: Vec<bool> = prepare(problem).iter().map(|f| *f == Fate::Open).collect();
         let all = open.iter().filter(|&&open| open).count();
         let mut size = self.size.clamp(1, all.max(1));
@@ -117,7 +129,7 @@ impl<M: MipSolver> Windows<M> {
             let free = window(problem, order[at % order.len()], size, &open);
             let holds_all = size >= all;
             let left = record.left(limits);
-            if left.deadline.is_some_and(|deadline| deadline.is_zero()) {
+            if is_late(record) {
                 return Ok(Ended::Deadline);
             }
             let program = formulated.window(&network, &free);

@@ -29,6 +29,11 @@
 //! - **Door.** A face is covered by one of the placements that can; so of the
 //!   edges on their borders one is active; and one leaves any set U of vertices
 //!   that contains their ends as above.
+//! - **Door twice.** If dead ends are forbidden besides, with B the ends of those
+//!   borders, none of them a sink or at an edge that is active anyway, and g the
+//!   least number of edges of a cycle that may be active: `(g - 1) x(leaving B) +
+//!   x(within B) >= 2 g - 1`. The proof is that of cuts (25) in
+//!   `formulate/room_balls.rs`.
 //! - **Doors.** Each face f is covered by a room of at most m_f faces, so there
 //!   are at least `N = sum of 1 / m_f` rooms, each with an active edge on its
 //!   border. An edge e is on the border of at most h_e rooms at once: h_e faces
@@ -36,6 +41,7 @@
 //!   is covered twice. So `sum of h_e x_e >= N`, N rounded up.
 
 use super::model::{Fate, Model};
+use crate::formulate::least_cycle;
 
 /// An inequality.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,6 +67,9 @@ pub(super) struct Quarry {
     /// Rows, then faces, then edges that were dealt with.
     at: usize,
     terms: usize,
+    /// Factors of edges that leave, of those within and what they reach at least,
+    /// in rows of doors where dead ends are forbidden.
+    twice: Option<[f64; 3]>,
     /// The row of all doors, as far as it is known.
     doors: Row,
     pub(super) rows: Vec<Row>,
@@ -78,6 +87,12 @@ impl Quarry {
                 .collect(),
             at: 0,
             terms: 0,
+            twice: (model.problem.rooms.is_some() && !model.problem.dead_ends).then(|| {
+                match least_cycle(model.problem) {
+                    Some(g) => [g as f64 - 1.0, 1.0, 2.0 * g as f64 - 1.0],
+                    None => [1.0, 0.0, 2.0],
+                }
+            }),
             doors: Row {
                 terms: Vec::new(),
                 least: 0.0,
@@ -193,7 +208,28 @@ impl Quarry {
         self.push(even(edges, 1.0));
         if !ends.iter().any(|&v| self.barrier[v]) {
             self.nested(model, &ends);
+            self.door_twice(model, &ends);
         }
+    }
+
+    /// Door twice: for the ends of the borders, ascending.
+    fn door_twice(&mut self, model: &Model<'_>, ends: &[usize]) {
+        let Some([leaving, within, least]) = self.twice else {
+            return;
+        };
+        let mut terms = Vec::new();
+        for &v in ends {
+            for &(e, w) in model.around.of(v) {
+                let inside = ends.binary_search(&w).is_ok();
+                let factor = if inside { within } else { leaving };
+                // Within, seen from both ends and counted once.
+                if model.fates[e] == Fate::Open && factor > 0.0 && (!inside || v < w) {
+                    terms.push((e, factor));
+                }
+            }
+        }
+        terms.sort_unstable_by_key(|&(e, _)| e);
+        self.push(Row { terms, least });
     }
 
     /// Doors: what an edge contributes. Faces come first, so that `least` is
