@@ -29,6 +29,7 @@ mod error;
 pub mod field;
 mod inset;
 pub mod io;
+mod lay;
 pub mod layout;
 pub mod metrics;
 pub mod network;
