@@ -73,6 +73,11 @@ pub fn generate_with(
     grow(&mut tree, site, roots, splitters, options, progress)?;
     let split = start.elapsed().as_secs_f64();
     planner::backtrack(&mut tree, site, splitters, options, progress)?;
+    if options.network.is_some() && !planner::is_connected(&tree, site) {
+        if let Some(other) = without_network(site, splitters, options, progress)? {
+            tree = other;
+        }
+    }
     let begun = Begun {
         start,
         split,
@@ -88,6 +93,33 @@ pub fn generate_with(
         progress,
         &begun,
     )
+}
+
+/// The site split without networks, if that gives what they could not: streets
+/// that are connected and lead out.
+fn without_network(
+    site: &Site,
+    splitters: &[Box<dyn Splitter>],
+    options: &PlanOptions,
+    progress: &mut dyn Progress,
+) -> Result<Option<Tree>> {
+    let none = PlanOptions {
+        network: None,
+        ..options.clone()
+    };
+    let (mut tree, roots) = Tree::new(site)?;
+    grow(&mut tree, site, roots, splitters, &none, progress)?;
+    planner::backtrack(&mut tree, site, splitters, &none, progress)?;
+    if !planner::is_connected(&tree, site) {
+        return Ok(None);
+    }
+    tree.warnings.insert(
+        Path::everything(),
+        "the networks of the site's regions could not be joined to one that leads out; all streets follow a field \
+         instead. Try another seed, or ask less of the levels"
+            .to_owned(),
+    );
+    Ok(Some(tree))
 }
 
 /// When a run began, and the seconds that its search took.

@@ -24,7 +24,8 @@ mod reroll;
 pub mod seed;
 
 pub(crate) use backtrack::backtrack;
-pub(crate) use improve::improve;
+pub(crate) use connect::{is_connected, is_exit};
+pub(crate) use improve::{faults, improve};
 pub(crate) use reroll::clear;
 use seed::{mix, Path};
 

@@ -51,6 +51,7 @@ pub(super) fn choose(
     mesh: Tessellation,
     levels: &[LevelPlan],
     options: &NetworkOptions,
+    seed: u64,
 ) -> Result<Web, String> {
     let mut web = Web {
         level: vec![None; mesh.edges().len()],
@@ -66,7 +67,7 @@ pub(super) fn choose(
         web.given.fill(false);
         rim.given.iter().for_each(|&e| web.given[e] = true);
         let last = index + 1 == levels.len();
-        let seed = mix(region.seed ^ index as u64);
+        let seed = mix(seed ^ index as u64);
         let found = web.solve(scene, region, &level.network, &rim, last, options, seed);
         match found {
             Ok((problem, active)) => {

@@ -14,6 +14,8 @@ mod streets;
 
 pub use options::NetworkOptions;
 
+use streets::Laid;
+
 use std::cell::Cell;
 
 use network_opt::design::Tessellation;
@@ -23,6 +25,7 @@ use crate::assemble::polygon_of;
 use crate::layout::Lineage;
 use crate::options::FieldKind;
 use crate::plane::at;
+use crate::planner::seed::mix;
 use crate::region::Region;
 use crate::splitter::{
     field_of, open_rings, Action, Cut, Proposal, Scene, Service, Splitter, StreamlineSplitter,
@@ -33,6 +36,8 @@ use crate::splitter::{
 ///
 /// Regions that are too small for a network are left to the next splitter, and
 /// so are the blocks between its streets where they want one street more.
+/// It works only where [`PlanOptions::network`](crate::PlanOptions::network)
+/// is given, though with its own options.
 /// Where no network is found, the streets are those of [`StreamlineSplitter`],
 /// and the proposal says so in its warning.
 #[derive(Clone, Debug, Default)]
@@ -52,17 +57,33 @@ impl NetworkSplitter {
         let levels = self.options.levels(scene.options);
         let edge = self.options.edge_length(scene.options, levels.len());
         let mesh = mesh(region, self.options.field, edge)?;
-        let web = choose::choose(scene, region, mesh, &levels, &self.options)?;
         // A specification says itself what its streets are.
         let busy_from = match self.options.spec {
             Some(_) => f64::INFINITY,
             None => self.options.collector_parcels,
         };
-        let cuts = streets::cuts(scene, region, &web, &levels, busy_from);
-        if cuts.is_empty() {
-            return Err("none of its streets can be built".to_owned());
+        let mut best: Option<Laid> = None;
+        let mut why = String::new();
+        for k in 0..self.options.tries {
+            let seed = mix(region.seed ^ u64::from(k));
+            let web =
+                match choose::choose(scene, region, mesh.clone(), &levels, &self.options, seed) {
+                    Ok(web) => web,
+                    Err(reason) => {
+                        why = reason;
+                        continue;
+                    }
+                };
+            let laid = streets::lay_all(scene, region, &web, &levels, busy_from);
+            if best.as_ref().is_none_or(|best| laid.fault < best.fault) {
+                best = Some(laid);
+            }
         }
-        Ok(cuts)
+        match best {
+            Some(laid) if !laid.cuts.is_empty() => Ok(laid.cuts),
+            Some(_) => Err("none of its streets can be built".to_owned()),
+            None => Err(why),
+        }
     }
 }
 
@@ -100,6 +121,7 @@ impl Splitter for NetworkSplitter {
             .filter_map(|(_, _, side)| scene.network.streets.get(side.street? as usize))
             .any(|street| !street.given);
         if divided
+            || scene.options.network.is_none()
             || region.area < self.options.least_area(scene.options)
             || !Service::of(region, scene.options).wants_street(region)
         {

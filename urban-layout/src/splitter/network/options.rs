@@ -30,11 +30,16 @@ pub struct NetworkOptions {
     /// Moves of the search for each level: its time, by a measure that no clock
     /// and no other process changes.
     ///
-    /// Default value: 20,000.
+    /// Default value: 10,000.
     pub moves: u64,
+    /// Networks that are found, each from another seed; the one whose streets
+    /// can be built best and leave the squarest blocks is taken.
+    ///
+    /// Default value: 3.
+    pub tries: u32,
     /// What a quad of the last level costs that no street runs along, in edges.
     ///
-    /// Default value: 2.
+    /// Default value: 1.5.
     pub fronts: f64,
     /// What a bend costs where a street turns a corner of a quad, in edges.
     ///
@@ -43,7 +48,7 @@ pub struct NetworkOptions {
     /// What a street costs that ends at the edge of the land, in edges, where
     /// the specification forbids dead ends: elsewhere none does.
     ///
-    /// Default value: 1.
+    /// Default value: 0.5.
     pub ends: f64,
     /// Land that gets a network, in ideal parcels; smaller regions are split by
     /// the splitters that come after.
@@ -62,10 +67,11 @@ impl Default for NetworkOptions {
         Self {
             spec: None,
             field: FieldKind::Boundary,
-            moves: 20_000,
-            fronts: 2.0,
+            moves: 10_000,
+            tries: 3,
+            fronts: 1.5,
             bends: 0.75,
-            ends: 1.0,
+            ends: 0.5,
             least_parcels: 60.0,
             collector_parcels: 150.0,
         }
@@ -110,6 +116,9 @@ impl NetworkOptions {
             return Err(Error::usage(
                 "the search for a network has 0 moves; give 1 or more",
             ));
+        }
+        if self.tries == 0 {
+            return Err(Error::usage("0 networks are tried; give 1 or more"));
         }
         let Some(spec) = &self.spec else {
             return Ok(());

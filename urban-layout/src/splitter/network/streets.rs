@@ -6,17 +6,18 @@ use std::collections::BTreeMap;
 
 use geo_types::Coord;
 use network_opt::snake::{smooth_snakes, snakes, Snake, SnakeOptions};
-use network_opt::FaceId;
+use network_opt::{FaceId, VertexId};
 
 use super::choose::Web;
 use super::options::LevelPlan;
 use crate::lay::{lay, KEEP_OFF};
 use crate::network::{Network, StreetInfo};
-use crate::plane::{angle, dist, in_ring, length, resample, unit};
+use crate::plane::{angle, dist, in_ring, length, resample, turn, unit};
+use crate::planner::{faults, is_exit};
 use crate::region::{Place, Region};
 use crate::segments::SegmentGrid;
 use crate::site::RoadClass;
-use crate::splitter::{smooth, Cut, CutMaker, Path2, Scene};
+use crate::splitter::{smooth, Cut, CutMaker, Path2, Scene, Service};
 
 /// The end of a street may be so far from the street that it leads to, which
 /// was smoothed, over the width of new streets.
@@ -35,17 +36,30 @@ const SIDEWAYS: f64 = 2.5;
 /// What a point next to the boundary counts, in degrees of a turn.
 const NEAR: f64 = 10.0;
 
-/// All streets of a web that can be built, in the order in which they are laid.
-/// Those over which `busy_from` parcels or more have their way are collectors.
-pub(super) fn cuts(
+/// Streets that can be built.
+#[derive(Debug)]
+pub(super) struct Laid {
+    /// In the order in which they are to be laid.
+    pub(super) cuts: Vec<Cut>,
+    /// How bad it is: see [`Draft::fault_of_all`].
+    pub(super) fault: f64,
+}
+
+/// All streets of a web that can be built and lead out. Those over which
+/// `busy_from` parcels or more have their way are collectors.
+pub(super) fn lay_all(
     scene: &Scene<'_>,
     region: &Region,
     web: &Web,
     levels: &[LevelPlan],
     busy_from: f64,
-) -> Vec<Cut> {
+) -> Laid {
+    let nothing = Laid {
+        cuts: Vec::new(),
+        fault: f64::INFINITY,
+    };
     let Some(mut draft) = Draft::new(scene, region, web) else {
-        return Vec::new();
+        return nothing;
     };
     let mut cuts = Vec::new();
     while let Some(piece) = draft.next() {
@@ -61,8 +75,33 @@ pub(super) fn cuts(
         draft.settle(&piece, laid.is_some());
         cuts.extend(laid);
     }
-    cuts
+    let fault = draft.fault_of_all();
+    let leads_out = draft.led_out();
+    let all = cuts.len();
+    cuts = cuts
+        .into_iter()
+        .zip(leads_out)
+        .filter_map(|(cut, out)| out.then_some(cut))
+        .collect();
+    if cuts.is_empty() {
+        return nothing;
+    }
+    let lost = (all - cuts.len()) as f64;
+    Laid {
+        cuts,
+        fault: fault + LOST * lost,
+    }
 }
+
+/// A turn beyond this is a corner of a block, degrees.
+const CORNER_DEG: f64 = 30.0;
+/// What a parcel's land out of reach, a corner too many or too few, an edge
+/// that is no street after all, and a street that leads nowhere count, in
+/// corners as wrong as can be.
+const OUT_OF_REACH: f64 = 0.2;
+const ODD: f64 = 0.3;
+const DROPPED: f64 = 0.3;
+const LOST: f64 = 3.0;
 
 /// A run of edges from one vertex where streets are to another.
 #[derive(Clone, Debug)]
@@ -93,6 +132,8 @@ struct Draft<'a> {
     anchors: Vec<bool>,
     rim: SegmentGrid,
     network: Network,
+    /// Laws of streets that the network breaks.
+    faults: usize,
     faces: Vec<FaceId>,
 }
 
@@ -138,6 +179,7 @@ impl<'a> Draft<'a> {
             anchors,
             rim: region.grid().0,
             network: scene.network.clone(),
+            faults: faults(scene.network, scene.options),
             faces: vec![region.face],
         })
     }
@@ -302,6 +344,77 @@ impl<'a> Draft<'a> {
         sharpest + NEAR * near
     }
 
+    /// For each street that was laid, in order, whether it is connected to a
+    /// way out of the site or to a street that was there before. All of them
+    /// where nothing leads out of the region anyhow.
+    fn led_out(&self) -> Vec<bool> {
+        let network = &self.network;
+        let before = self.scene.network.streets.len();
+        let ours = |v: VertexId| {
+            let streets = network.streets_at(v).into_iter();
+            streets
+                .filter_map(|h| Some((network.mesh.attr(h).street? as usize, network.mesh.dest(h))))
+        };
+        let count = network.streets.len() - before;
+        let mut out = vec![false; count];
+        let mut seen = vec![false; network.mesh.vertex_bound()];
+        for start in network.mesh.vertices() {
+            if seen[start.0 as usize] || network.streets_at(start).is_empty() {
+                continue;
+            }
+            let (mut stack, mut members, mut leads) = (vec![start], Vec::new(), false);
+            seen[start.0 as usize] = true;
+            while let Some(v) = stack.pop() {
+                leads |= is_exit(network, v);
+                for (street, to) in ours(v) {
+                    leads |= street < before;
+                    members.push(street);
+                    if !std::mem::replace(&mut seen[to.0 as usize], true) {
+                        stack.push(to);
+                    }
+                }
+            }
+            if leads {
+                for street in members.into_iter().filter(|&s| s >= before) {
+                    out[street - before] = true;
+                }
+            }
+        }
+        out
+    }
+
+    /// How bad the blocks are, in wrong corners: corners by how far they are
+    /// from square, blocks by how far from four corners, land out of reach, and
+    /// streets that could not be built.
+    fn fault_of_all(&self) -> f64 {
+        let options = self.scene.options;
+        let parcel = options.parcel_length * options.parcel_width;
+        let mut fault = 0.0;
+        for &face in &self.faces {
+            let region = Region::new(&self.network, face, self.region.path.clone(), 0);
+            let service = Service::of(&region, options);
+            fault += OUT_OF_REACH * service.unserved.len() as f64 * service.cell / parcel;
+            let mut corners = 0.0;
+            for l in &region.loops {
+                let n = l.points.len();
+                for i in 0..n {
+                    let (before, after) = (l.edge((i + n - 1) % n), l.edge(i));
+                    let turn = turn(before.1 - before.0, after.1 - after.0).to_degrees();
+                    if turn.abs() > CORNER_DEG {
+                        corners += 1.0;
+                        fault += (turn - 90.0).abs() / 90.0;
+                    }
+                }
+            }
+            fault += ODD * f64::abs(corners - 4.0);
+        }
+        let dropped = self
+            .fates
+            .iter()
+            .filter(|&&f| f != Fate::None && f != Fate::Laid);
+        fault + DROPPED * dropped.count() as f64
+    }
+
     /// The line of a piece, ends included.
     fn line(&self, piece: &Piece) -> Vec<Coord<f64>> {
         let mut points: Vec<Coord<f64>> = Vec::new();
@@ -370,7 +483,14 @@ impl<'a> Draft<'a> {
             lineage: None,
         };
         let clear = KEEP_OFF * options.street_width;
-        let faces = lay(&mut self.network, &region, &cut, info, clear)?;
+        let mut network = self.network.clone();
+        let faces = lay(&mut network, &region, &cut, info, clear)?;
+        let faults = faults(&network, options);
+        if faults > self.faults {
+            return None;
+        }
+        self.network = network;
+        self.faults = faults;
         self.faces.splice(slot..=slot, faces);
         Some(cut)
     }
