@@ -71,6 +71,9 @@ pub(crate) struct Generate {
     /// With --streets network: moves of the search for each level, its time.
     #[arg(long, default_value_t = NetworkOptions::default().moves, value_name = "N")]
     pub(crate) moves: u64,
+    /// With --streets network: networks that are found for each region, of which the best is taken.
+    #[arg(long, default_value_t = NetworkOptions::default().tries, value_name = "N")]
+    pub(crate) tries: u32,
     /// How freely streets are chosen by quality; 0 always takes the best.
     #[arg(long, default_value_t = PlanOptions::default().temperature)]
     pub(crate) temperature: f64,
@@ -362,6 +365,7 @@ impl Generate {
         Ok(Some(NetworkOptions {
             spec: self.spec.as_deref().map(read_spec).transpose()?,
             moves: self.moves,
+            tries: self.tries,
             ..NetworkOptions::default()
         }))
     }

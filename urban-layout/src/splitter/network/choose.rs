@@ -25,6 +25,14 @@ pub(super) struct Web {
     pub(super) traffic: Vec<f64>,
 }
 
+/// What is to be laid out, and how.
+#[derive(Clone, Copy)]
+struct Order<'a> {
+    scene: &'a Scene<'a>,
+    region: &'a Region,
+    options: &'a NetworkOptions,
+}
+
 /// Two edges of a vertex that meet at less than this make a bend, degrees.
 const BEND_DEG: f64 = 130.0;
 /// Share of the land that becomes parcels.
@@ -59,6 +67,11 @@ pub(super) fn choose(
         traffic: vec![0.0; mesh.edges().len()],
         mesh,
     };
+    let order = Order {
+        scene,
+        region,
+        options,
+    };
     for (index, level) in levels.iter().enumerate() {
         if index > 0 {
             web = web.refined();
@@ -68,7 +81,7 @@ pub(super) fn choose(
         rim.given.iter().for_each(|&e| web.given[e] = true);
         let last = index + 1 == levels.len();
         let seed = mix(seed ^ index as u64);
-        let found = web.solve(scene, region, &level.network, &rim, last, options, seed);
+        let found = web.solve(&order, &level.network, &rim, last, seed);
         match found {
             Ok((problem, active)) => {
                 let parcel = scene.options.parcel_length * scene.options.parcel_width;
@@ -105,12 +118,10 @@ impl Web {
     /// without its wishes.
     fn solve(
         &self,
-        scene: &Scene<'_>,
-        region: &Region,
+        order: &Order<'_>,
         specification: &Specification,
         rim: &RimFacts,
         last: bool,
-        options: &NetworkOptions,
         seed: u64,
     ) -> Result<(Problem, Vec<bool>), String> {
         let above: Vec<usize> = (0..self.level.len())
@@ -131,11 +142,12 @@ impl Web {
             ..specification.clone()
         };
         let mut problem = specification.on(&self.mesh).map_err(|e| e.to_string())?;
-        self.close_bad_ends(&mut problem, scene, region);
+        let options = order.options;
+        self.close_bad_ends(&mut problem, order.scene, order.region);
+        self.drop_out_of_reach(&mut problem);
         if !problem.dead_ends {
             self.add_ends(&mut problem, options.ends);
         }
-        self.drop_out_of_reach(&mut problem);
         self.add_bends(&mut problem, options.bends);
         if last {
             self.add_fronts(&mut problem, options.fronts);
@@ -222,8 +234,19 @@ impl Web {
         traffic
     }
 
-    /// Takes away what no street can cover: pockets where one would end blind.
+    /// Which vertices lie on the rim.
+    fn on_rim(&self) -> Vec<bool> {
+        let mut on_rim = vec![false; self.mesh.points().len()];
+        for (ends, rim) in self.mesh.edges().iter().zip(self.mesh.rim()) {
+            ends.iter().for_each(|&v| on_rim[v] |= rim);
+        }
+        on_rim
+    }
+
+    /// Takes away what no street can cover: pockets inside where one would end
+    /// blind.
     fn drop_out_of_reach(&self, problem: &mut Problem) {
+        let on_rim = self.on_rim();
         let around = problem.around();
         let mut open: Vec<bool> = problem
             .states
@@ -235,7 +258,7 @@ impl Web {
                 |open: &[bool], v: usize| around[v].iter().filter(|&&(e, _)| open[e]).count();
             let mut queue: Vec<usize> = (0..problem.vertices).collect();
             while let Some(v) = queue.pop() {
-                if problem.sinks[v] || degree(&open, v) != 1 {
+                if problem.sinks[v] || on_rim[v] || degree(&open, v) != 1 {
                     continue;
                 }
                 for &(e, w) in around[v].iter().filter(|&&(e, _)| open[e]) {
@@ -275,10 +298,7 @@ impl Web {
         let points = self.mesh.points();
         let strict = CutMaker::new(scene, region);
         let yielding = CutMaker::new(scene, region).yielding();
-        let mut on_rim = vec![false; points.len()];
-        for (ends, _) in self.mesh.edges().iter().zip(&rim).filter(|(_, &rim)| rim) {
-            ends.iter().for_each(|&v| on_rim[v] = true);
-        }
+        let on_rim = self.on_rim();
         for v in (0..points.len()).filter(|&v| on_rim[v]) {
             let inner: Vec<(usize, usize)> = self
                 .mesh
@@ -312,10 +332,7 @@ impl Web {
 
     /// Streets may end at the rim, at a price, and nowhere else.
     fn add_ends(&self, problem: &mut Problem, cost: f64) {
-        let mut on_rim = vec![false; problem.vertices];
-        for (ends, rim) in self.mesh.edges().iter().zip(self.mesh.rim()) {
-            ends.iter().for_each(|&v| on_rim[v] |= rim);
-        }
+        let on_rim = self.on_rim();
         problem.dead_ends = true;
         for v in (0..problem.vertices).filter(|&v| !problem.sinks[v]) {
             let around: Vec<usize> = self.mesh.around(v).iter().map(|&(e, _)| e).collect();
@@ -402,5 +419,121 @@ impl Web {
             }
         }
         chosen
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use network_opt::design::{Feature, Rim};
+    use network_opt::quad::{quads, QuadOptions};
+
+    /// 6 by 4 quads of 10 m.
+    fn web() -> Web {
+        let rectangle = geo_types::polygon![
+            (x: 0.0, y: 0.0), (x: 60.0, y: 0.0), (x: 60.0, y: 40.0), (x: 0.0, y: 40.0)
+        ];
+        let options = QuadOptions {
+            edge_length: 10.0,
+            ..QuadOptions::default()
+        };
+        let mesh = quads(&rectangle, &options).expect("quads");
+        Web {
+            level: vec![None; mesh.edges().len()],
+            given: vec![false; mesh.edges().len()],
+            traffic: vec![0.0; mesh.edges().len()],
+            mesh,
+        }
+    }
+
+    fn vertex(web: &Web, x: f64, y: f64) -> usize {
+        let near = |p: &geo_types::Coord<f64>| (p.x - x).hypot(p.y - y) < 1e-6;
+        web.mesh.points().iter().position(near).expect("a vertex")
+    }
+
+    fn problem(web: &Web) -> Problem {
+        let specification = Specification {
+            rim: Rim::Closed,
+            too_close: Feature::Free,
+            zig_zags: Feature::Free,
+            sinks: Sinks::At(vec![vertex(web, 0.0, 20.0)]),
+            ..Specification::default()
+        };
+        specification.on(&web.mesh).expect("fits")
+    }
+
+    /// A street along the middle: all that its twelve quads hold passes its
+    /// first edge, a sixth of it starts at the last.
+    #[test]
+    fn traffic_adds_up_towards_the_way_out() {
+        let web = web();
+        let problem = problem(&web);
+        let at = |k: usize| vertex(&web, 10.0 * k as f64, 20.0);
+        let street: Vec<usize> = (0..6)
+            .map(|k| web.mesh.edge_between(at(k), at(k + 1)).expect("an edge"))
+            .collect();
+        let active: Vec<bool> = (0..problem.edges()).map(|e| street.contains(&e)).collect();
+        // One parcel in 100 m2: one a quad, two an edge.
+        let traffic = web.traffic_of(&problem, &active, 0.01);
+        for (k, &e) in street.iter().enumerate() {
+            let wanted = 2.0 * (6 - k) as f64;
+            assert!((traffic[e] - wanted).abs() < 1e-9, "{k}: {}", traffic[e]);
+        }
+        assert!((0..active.len()).all(|e| active[e] || traffic[e] == 0.0));
+    }
+
+    /// Of 24 quads the 12 in the middle rows have a front once the street is
+    /// there, and each of the others costs; a given street counts as one.
+    #[test]
+    fn fronts_are_of_quads_without_a_street() {
+        let web = web();
+        let mut problem = problem(&web);
+        let before = problem.patterns.len();
+        web.add_fronts(&mut problem, 2.0);
+        assert_eq!(problem.patterns.len() - before, 24);
+        let given = web
+            .mesh
+            .edge_between(vertex(&web, 0.0, 20.0), vertex(&web, 10.0, 20.0))
+            .expect("an edge");
+        problem.patterns.truncate(before);
+        problem.states[given] = EdgeState::Given;
+        web.add_fronts(&mut problem, 2.0);
+        assert_eq!(problem.patterns.len() - before, 22);
+        problem.patterns.truncate(before);
+        web.add_fronts(&mut problem, 0.0);
+        assert_eq!(problem.patterns.len(), before);
+    }
+
+    /// Each inner vertex has a pattern for each of its four edges, forbidden;
+    /// each on the rim one for its edge inwards, at a price; the sink has none.
+    #[test]
+    fn streets_end_at_the_rim_alone() {
+        let web = web();
+        let mut problem = problem(&web);
+        let before = problem.patterns.len();
+        web.add_ends(&mut problem, 0.5);
+        let new = &problem.patterns[before..];
+        let forbidden = new.iter().filter(|p| p.cost.is_none()).count();
+        // 5 by 3 vertices inside; 20 on the rim, 4 of them corners.
+        assert_eq!(forbidden, 15 * 4);
+        assert_eq!(new.len() - forbidden, 20 - 4 - 1);
+        assert!(problem.dead_ends);
+    }
+
+    /// With dead ends forbidden a vertex that only one open edge reaches is out
+    /// of reach, and what it alone covers is no longer asked.
+    #[test]
+    fn pockets_are_not_to_be_covered() {
+        let web = web();
+        let mut problem = problem(&web);
+        let corner = vertex(&web, 10.0, 10.0);
+        for &(e, w) in web.mesh.around(corner) {
+            if w != vertex(&web, 20.0, 10.0) {
+                problem.states[e] = EdgeState::Closed;
+            }
+        }
+        problem.coverage = vec![vec![corner], vec![corner, vertex(&web, 20.0, 10.0)]];
+        web.drop_out_of_reach(&mut problem);
+        assert_eq!(problem.coverage, [vec![vertex(&web, 20.0, 10.0)]]);
     }
 }

@@ -207,3 +207,28 @@ fn check_level(level: &LevelSpec) -> Result<()> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Half a street and a parcel on the last level, twice that above it.
+    #[test]
+    fn a_quad_of_the_last_level_is_a_row_of_parcels() {
+        let plan = PlanOptions::default();
+        let options = NetworkOptions::default();
+        assert_eq!(options.edge_length(&plan, 1), 37.5);
+        assert_eq!(options.edge_length(&plan, 2), 75.0);
+        let spec = NetworkSpec {
+            edge_length: 50.0,
+            ..NetworkSpec::default()
+        };
+        let given = NetworkOptions {
+            spec: Some(spec),
+            ..options
+        };
+        assert_eq!(given.edge_length(&plan, 3), 50.0);
+        assert_eq!(given.levels(&plan).len(), 1);
+        assert_eq!(given.levels(&plan)[0].class, RoadClass::Collector);
+    }
+}
