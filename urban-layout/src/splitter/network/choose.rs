@@ -425,12 +425,13 @@ impl Web {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use geo_types::polygon;
     use network_opt::design::{Feature, Rim};
     use network_opt::quad::{quads, QuadOptions};
 
     /// 6 by 4 quads of 10 m.
     fn web() -> Web {
-        let rectangle = geo_types::polygon![
+        let rectangle = polygon![
             (x: 0.0, y: 0.0), (x: 60.0, y: 0.0), (x: 60.0, y: 40.0), (x: 0.0, y: 40.0)
         ];
         let options = QuadOptions {
