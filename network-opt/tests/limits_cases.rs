@@ -122,6 +122,7 @@ fn floor(n: usize) -> Problem {
 
 /// All solvers, by name.
 fn solvers() -> Vec<(&'static str, Box<dyn NetworkSolver>)> {
+    #[cfg_attr(not(feature = "highs"), allow(unused_mut, reason = "added to below"))]
     let mut all: Vec<(&'static str, Box<dyn NetworkSolver>)> = vec![
         ("search", Box::new(Search::default())),
         ("exact microlp", Box::new(Exact::new(Microlp))),

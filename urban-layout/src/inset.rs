@@ -133,13 +133,55 @@ pub(crate) fn boolean(
     clip: &[Vec<[f64; 2]>],
     rule: OverlayRule,
 ) -> Shapes {
+    overlay(subject, clip, rule, OverlayOptions::ogc())
+}
+
+fn overlay(
+    subject: &[Vec<Vec<[f64; 2]>>],
+    clip: &[Vec<[f64; 2]>],
+    rule: OverlayRule,
+    options: OverlayOptions<f64, i64>,
+) -> Shapes {
     FloatOverlay::<[f64; 2], i64>::from_subj_and_clip_custom(
         subject,
         clip,
-        OverlayOptions::ogc(),
+        options,
         Solver::default(),
     )
     .overlay(rule, FillRule::NonZero)
+}
+
+/// `subject` without `clip`, of which no part lies in another or outside: the
+/// areas show whether the result is whole. Where holes that nearly touch each
+/// other were lost on the way to valid polygons the rings come as they are,
+/// and may touch.
+pub(crate) fn without_parts(
+    subject: &[Vec<Vec<[f64; 2]>>],
+    clip: &[Vec<[f64; 2]>],
+    tolerance: f64,
+) -> Shapes {
+    let area = |rings: &mut dyn Iterator<Item = &Vec<[f64; 2]>>| -> f64 {
+        rings
+            .map(|r| signed_area(&r.iter().map(|p| at(p[0], p[1])).collect::<Vec<_>>()))
+            .sum()
+    };
+    let left = area(&mut subject.iter().flatten()) - area(&mut clip.iter());
+    let off = |shapes: &Shapes| (area(&mut shapes.iter().flatten()) - left).abs();
+    let shapes = difference(subject, clip);
+    if off(&shapes) <= tolerance {
+        return shapes;
+    }
+    let plain = overlay(
+        subject,
+        clip,
+        OverlayRule::Difference,
+        OverlayOptions::default(),
+    );
+    if off(&plain) < off(&shapes) {
+        plain
+    } else {
+        shapes
+    }
 }
 
 /// A cleaned plot with its sides, or `None` if nothing is left of it.

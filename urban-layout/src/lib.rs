@@ -30,6 +30,7 @@ pub mod field;
 pub mod floorplan;
 mod inset;
 pub mod io;
+mod lay;
 pub mod layout;
 pub mod metrics;
 pub mod network;

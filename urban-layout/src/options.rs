@@ -1,5 +1,7 @@
 //! What a run may be told: sizes, field, seed, weights and limits.
 
+use crate::splitter::NetworkOptions;
+
 /// Which cross field guides the streets (supplement 2013, section 4).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FieldKind {
@@ -90,6 +92,9 @@ pub struct PlanOptions {
     /// Most warping energy at which a template is accepted (paper's threshold).
     /// Default 0.02.
     pub template_energy: f64,
+    /// Where the streets of a region come from its specification as a network,
+    /// how: see [`NetworkOptions`]. Default: `None`, from streamlines alone.
+    pub network: Option<NetworkOptions>,
     /// Worker threads; 0 for as many as there are cores. The result does not
     /// depend on it.
     pub threads: usize,
@@ -111,6 +116,7 @@ impl Default for PlanOptions {
             optimize: true,
             templates: Vec::new(),
             template_energy: 0.02,
+            network: None,
             threads: 0,
         }
     }

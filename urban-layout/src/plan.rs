@@ -11,8 +11,8 @@ use crate::planner::{self, seed::Path, Pending, Tree};
 use crate::progress::{Progress, Stage};
 use crate::site::Site;
 use crate::splitter::{
-    Action, ParkFill, ReachSplitter, SkeletonParceler, Splitter, StreamlineSplitter,
-    TemplateSplitter,
+    Action, NetworkSplitter, ParkFill, ReachSplitter, SkeletonParceler, Splitter,
+    StreamlineSplitter, TemplateSplitter,
 };
 
 /// A finished plan: the layout, and the state from which regions of it can be
@@ -44,13 +44,17 @@ pub fn generate(site: &Site, options: &PlanOptions, progress: &mut dyn Progress)
 /// If the options name a template that does not exist.
 pub fn standard_splitters(options: &PlanOptions) -> Result<Vec<Box<dyn Splitter>>> {
     validate(options)?;
-    Ok(vec![
-        Box::new(TemplateSplitter::new(options)?),
+    let mut splitters: Vec<Box<dyn Splitter>> = vec![Box::new(TemplateSplitter::new(options)?)];
+    if let Some(network) = &options.network {
+        splitters.push(Box::new(NetworkSplitter::new(network.clone())));
+    }
+    splitters.extend::<[Box<dyn Splitter>; 4]>([
         Box::new(StreamlineSplitter),
         Box::new(ReachSplitter),
         Box::new(SkeletonParceler),
         Box::new(ParkFill),
-    ])
+    ]);
+    Ok(splitters)
 }
 
 /// Lays out a site with splitters of one's own.
@@ -69,6 +73,11 @@ pub fn generate_with(
     grow(&mut tree, site, roots, splitters, options, progress)?;
     let split = start.elapsed().as_secs_f64();
     planner::backtrack(&mut tree, site, splitters, options, progress)?;
+    if options.network.is_some() && !planner::is_connected(&tree, site) {
+        if let Some(other) = without_network(site, splitters, options, progress)? {
+            tree = other;
+        }
+    }
     let begun = Begun {
         start,
         split,
@@ -84,6 +93,33 @@ pub fn generate_with(
         progress,
         &begun,
     )
+}
+
+/// The site split without networks, if that gives what they could not: streets
+/// that are connected and lead out.
+fn without_network(
+    site: &Site,
+    splitters: &[Box<dyn Splitter>],
+    options: &PlanOptions,
+    progress: &mut dyn Progress,
+) -> Result<Option<Tree>> {
+    let none = PlanOptions {
+        network: None,
+        ..options.clone()
+    };
+    let (mut tree, roots) = Tree::new(site)?;
+    grow(&mut tree, site, roots, splitters, &none, progress)?;
+    planner::backtrack(&mut tree, site, splitters, &none, progress)?;
+    if !planner::is_connected(&tree, site) {
+        return Ok(None);
+    }
+    tree.warnings.insert(
+        Path::everything(),
+        "the networks of the site's regions could not be joined to one that leads out; all streets follow a field \
+         instead. Try another seed, or ask less of the levels"
+            .to_owned(),
+    );
+    Ok(Some(tree))
 }
 
 /// When a run began, and the seconds that its search took.
@@ -226,6 +262,9 @@ fn validate(options: &PlanOptions) -> Result<()> {
             )));
         }
     }
+    if let Some(network) = &options.network {
+        network.check()?;
+    }
     if !(options.temperature >= 0.0 && options.temperature.is_finite()) {
         return Err(Error::usage(format!(
             "temperature is {}; it must be 0 or more",
@@ -283,6 +322,12 @@ impl Plan {
             progress,
             &begun,
         )
+    }
+
+    /// What the user should know of how the plan came about, such as regions
+    /// whose streets could not be laid as was asked for; empty as a rule.
+    pub fn warnings(&self) -> impl Iterator<Item = &str> + '_ {
+        self.tree.warnings.values().map(String::as_str)
     }
 
     /// The split tree and network behind the layout.

@@ -10,7 +10,7 @@ use crate::layout::Lineage;
 use crate::network::{Network, SideKind};
 use crate::options::PlanOptions;
 use crate::plane::dist;
-use crate::planner::{apply, Pending, Tree};
+use crate::planner::{apply, faults, Pending, Tree};
 use crate::region::{Place, Region};
 use crate::site::Site;
 use crate::splitter::{Cut, CutMaker, Path2, Scene, Ways};
@@ -63,37 +63,59 @@ pub(super) fn connect(tree: &mut Tree, site: &Site, options: &PlanOptions) -> Ve
             .filter_map(|(i, f)| f.map(|(cost, cuts)| (cost, i, cuts)))
             .collect();
         order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let mut joined = false;
-        for (_, i, cuts) in order {
-            let p = &open[i];
-            let lineage = Lineage {
-                split: p.path.to_string(),
-                by: "connector".to_owned(),
-                ..Lineage::default()
-            };
-            let laid = cuts.iter().find_map(|cut| {
-                apply(
-                    tree,
-                    p,
-                    std::slice::from_ref(cut),
-                    &lineage,
-                    options,
-                    CutMaker::TIGHT - 0.05,
-                )
-            });
-            if let Some(children) = laid {
+        // Links that keep the laws of streets first; a network in pieces is
+        // worse than a link that does not.
+        let joined = [true, false].into_iter().any(|lawful| {
+            order.iter().any(|(_, i, cuts)| {
+                let p = &open[*i];
+                let Some(children) = link(tree, p, cuts, options, lawful) else {
+                    return false;
+                };
                 tree.leaves.remove(&p.path);
                 out.retain(|q| q.path != p.path);
                 out.extend(children);
-                joined = true;
-                break;
-            }
-        }
+                true
+            })
+        });
         if !joined {
             break;
         }
     }
     out
+}
+
+/// Lays the first of `cuts` that can be laid, if `lawful` without breaking a
+/// law of streets.
+fn link(
+    tree: &mut Tree,
+    p: &Pending,
+    cuts: &[Cut],
+    options: &PlanOptions,
+    lawful: bool,
+) -> Option<Vec<Pending>> {
+    let lineage = Lineage {
+        split: p.path.to_string(),
+        by: "connector".to_owned(),
+        ..Lineage::default()
+    };
+    let before = faults(&tree.network, options);
+    cuts.iter().find_map(|cut| {
+        let kept = lawful.then(|| tree.network.clone());
+        let one = std::slice::from_ref(cut);
+        let children = apply(tree, p, one, &lineage, options, CutMaker::TIGHT - 0.05)?;
+        match kept {
+            Some(kept) if faults(&tree.network, options) > before => {
+                tree.network = kept;
+                None
+            }
+            _ => Some(children),
+        }
+    })
+}
+
+/// Whether each part of the site has one network of streets, which leads out.
+pub(crate) fn is_connected(tree: &Tree, site: &Site) -> bool {
+    Components::of(&tree.network, site).satisfied(site.parts.len())
 }
 
 /// The connected components of the streets, and which of them lead out.
@@ -155,7 +177,7 @@ impl Components {
 }
 
 /// Whether a street that ends at this vertex leads out of the site.
-fn is_exit(network: &Network, v: VertexId) -> bool {
+pub(crate) fn is_exit(network: &Network, v: VertexId) -> bool {
     let mesh = &network.mesh;
     let on_boundary = mesh
         .outgoing(v)

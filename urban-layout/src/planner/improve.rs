@@ -192,7 +192,7 @@ fn corners(tree: &Tree, face: FaceId) -> Option<[VertexId; 4]> {
 
 /// How many of a network's streets break a law: too sharp a meeting, too close
 /// a pair of junctions, a kink.
-fn faults(network: &Network, options: &PlanOptions) -> usize {
+pub(crate) fn faults(network: &Network, options: &PlanOptions) -> usize {
     let mesh = &network.mesh;
     let mut count = 0;
     for v in mesh.vertices() {

@@ -4,16 +4,15 @@
 
 use std::collections::BTreeMap;
 
-use geo_types::Coord;
-use network_opt::{End, FaceId};
+use network_opt::FaceId;
 
 use crate::error::{Error, Result};
+use crate::lay::{lay, KEEP_OFF};
 use crate::layout::Lineage;
-use crate::network::{Network, SideKind, StreetInfo};
+use crate::network::{Network, StreetInfo};
 use crate::options::PlanOptions;
-use crate::plane::dist;
 use crate::progress::{Progress, Stage};
-use crate::region::{Place, Region};
+use crate::region::Region;
 use crate::site::{RoadClass, Site};
 use crate::splitter::{Action, Cut, Fill, Proposal, Scene, Splitter};
 
@@ -25,7 +24,8 @@ mod reroll;
 pub mod seed;
 
 pub(crate) use backtrack::backtrack;
-pub(crate) use improve::improve;
+pub(crate) use connect::{is_connected, is_exit};
+pub(crate) use improve::{faults, improve};
 pub(crate) use reroll::clear;
 use seed::{mix, Path};
 
@@ -51,6 +51,8 @@ pub struct Tree {
     pub leaves: BTreeMap<Path, Leaf>,
     /// Seeds that replace the user's below a path (re-rolled regions).
     pub rerolled: BTreeMap<Path, u64>,
+    /// What the user should know of how regions were split, by path.
+    pub warnings: BTreeMap<Path, String>,
 }
 
 /// Splits deeper than this are not tried: no site needs them.
@@ -58,14 +60,6 @@ const MAX_DEPTH: usize = 48;
 /// How often a region may find its proposals overtaken by its neighbours'
 /// streets before it is asked alone.
 const MAX_DEFERRALS: usize = 3;
-
-/// Least distance of a street's end from a junction along the street it meets,
-/// over the street's width.
-const KEEP_OFF: f64 = 1.7;
-
-/// The same as the crow flies, over the distance along the street: notches of
-/// the boundary bring far places together.
-const LEAST_SPACING: f64 = 0.85;
 
 /// A region that waits to be split.
 #[derive(Clone, Debug)]
@@ -101,6 +95,7 @@ impl Tree {
                 network,
                 leaves: BTreeMap::new(),
                 rerolled: BTreeMap::new(),
+                warnings: BTreeMap::new(),
             },
             roots,
         ))
@@ -207,7 +202,10 @@ fn commit(
         );
         turn += 1;
         let Proposal {
-            action, lineage, ..
+            action,
+            lineage,
+            warning,
+            ..
         } = proposals.remove(chosen);
         match action {
             Action::Fill(fill) => {
@@ -224,6 +222,8 @@ fn commit(
             }
             Action::Cut(cuts) => {
                 if let Some(children) = apply(tree, &p, &cuts, &lineage, options, KEEP_OFF) {
+                    tree.warnings
+                        .extend(warning.map(|text| (p.path.clone(), text)));
                     next.extend(children);
                     return;
                 }
@@ -304,41 +304,27 @@ pub(crate) fn apply(
         }) else {
             continue;
         };
-        let face = parts[slot];
-        let region = tree.region(face, &p.path, options.seed);
-        let clear = keep_off * options.street_width;
-        let first = cut.path.first().copied().unwrap_or(cut.to.at);
-        let last = cut.path.last().copied().unwrap_or(cut.from.at);
-        let ends = (
-            end(tree, &region, &cut.from, first, clear),
-            end(tree, &region, &cut.to, last, clear),
-        );
-        let (Some(from), Some(to)) = ends else {
-            continue;
-        };
-        let class = if cuts.len() == 1 && p.path.depth() < 2 && region.area > 250_000.0 {
-            RoadClass::Collector
-        } else {
-            RoadClass::Local
-        };
+        let region = tree.region(parts[slot], &p.path, options.seed);
+        let class = cut.class.unwrap_or_else(|| {
+            if cuts.len() == 1 && p.path.depth() < 2 && region.area > 250_000.0 {
+                RoadClass::Collector
+            } else {
+                RoadClass::Local
+            }
+        });
         let info = StreetInfo {
             class,
-            width: options.street_width,
+            width: cut.width.unwrap_or(options.street_width),
             given: false,
             name: None,
             lineage: Some(lineage.clone()),
         };
-        let side = tree.network.add_street(info);
-        let Ok(split) = tree
-            .network
-            .mesh
-            .split_face(face, &cut.path, from, to, side, side)
-        else {
-            tree.network.streets.pop();
+        let clear = keep_off * options.street_width;
+        let Some(faces) = lay(&mut tree.network, &region, cut, info, clear) else {
             continue;
         };
         laid += 1;
-        parts.splice(slot..=slot, split.faces);
+        parts.splice(slot..=slot, faces);
     }
     if laid == 0 {
         return None;
@@ -350,51 +336,6 @@ pub(crate) fn apply(
             .map(|(i, f)| Pending::new(f, p.path.child(i)))
             .collect(),
     )
-}
-
-/// Where a cut's end lies on the region's boundary now; `None` if a junction
-/// has come too close since the cut was proposed.
-fn end(
-    tree: &Tree,
-    region: &Region,
-    place: &Place,
-    towards: Coord<f64>,
-    clear: f64,
-) -> Option<End> {
-    let Place { ring, edge, at } = region.place_facing(place.at, towards);
-    if dist(at, place.at) > 1e-3 {
-        return None;
-    }
-    let l = &region.loops[ring];
-    let position = l.position(edge, at);
-    let (a, b) = l.edge(edge);
-    let vertex = if dist(a, at) < 1e-3 {
-        Some(l.vertices[edge])
-    } else if dist(b, at) < 1e-3 {
-        Some(l.vertices[(edge + 1) % l.vertices.len()])
-    } else {
-        None
-    };
-    let crowded = l
-        .nodes
-        .iter()
-        .any(|n| Some(n.vertex) != vertex && n.junction && l.between(n.position, position) < clear);
-    if crowded {
-        return None;
-    }
-    let mesh = &tree.network.mesh;
-    let near = |v: network_opt::VertexId| {
-        Some(v) != vertex && dist(mesh.point(v), at) < LEAST_SPACING * clear
-    };
-    if l.sides[edge].kind == SideKind::Boundary && tree.network.mouths().any(near) {
-        return None;
-    }
-    // A vertex takes at most four streets.
-    match vertex {
-        Some(v) if tree.network.streets_at(v).len() > 3 => None,
-        Some(v) => Some(End::Vertex(v)),
-        None => Some(End::Edge(l.half_edges[edge], at)),
-    }
 }
 
 /// Joins what is not yet joined: see [`connect`].

@@ -58,6 +58,7 @@ pub(crate) fn clear(tree: &mut Tree, root: &Path) -> Result<Pending> {
         )));
     };
     tree.leaves.retain(|path, _| !path.is_within(root));
+    tree.warnings.retain(|path, _| !path.is_within(root));
     Ok(Pending::new(
         face.filter(|f| *f == only).unwrap_or(only),
         root.clone(),

@@ -158,13 +158,15 @@ impl<'a> CutMaker<'a> {
                 from: start,
                 path: thin[1..thin.len() - 1].to_vec(),
                 to: end,
+                class: None,
+                width: None,
             }
         })
     }
 
     /// Where a street that arrives near `place` along `inward` should end, and
     /// the direction in which it should leave there.
-    fn anchor(&self, place: &Place, inward: Coord<f64>) -> Option<(Place, Coord<f64>)> {
+    pub(crate) fn anchor(&self, place: &Place, inward: Coord<f64>) -> Option<(Place, Coord<f64>)> {
         let l = &self.region.loops[place.ring];
         let side = l.sides[place.edge];
         let keep_off = self.keep_off() * self.options.street_width;

@@ -10,9 +10,11 @@ use crate::layout::Lineage;
 use crate::network::Network;
 use crate::options::PlanOptions;
 use crate::region::{Place, Region};
+use crate::site::RoadClass;
 
 mod cut;
 mod geodesic;
+mod network;
 mod parcels;
 mod park;
 mod reach;
@@ -21,6 +23,7 @@ mod service;
 mod streamlines;
 mod templates;
 
+pub use network::{NetworkOptions, NetworkSplitter};
 pub use parcels::SkeletonParceler;
 pub use park::ParkFill;
 pub use reach::ReachSplitter;
@@ -30,7 +33,7 @@ pub use templates::TemplateSplitter;
 pub(crate) use cut::{smooth, CutMaker, Path2};
 pub(crate) use geodesic::Ways;
 pub(crate) use service::Service;
-pub(crate) use streamlines::{imbalance, mesh_of};
+pub(crate) use streamlines::{field_of, imbalance, mesh_of, open_rings};
 
 /// What every splitter may look at.
 #[derive(Clone, Copy, Debug)]
@@ -65,6 +68,9 @@ pub struct Proposal {
     pub action: Action,
     /// Scores and energies, for the record.
     pub lineage: Lineage,
+    /// What the user should know if this is taken, such as that it is not what
+    /// was asked for; it becomes one of the plan's warnings.
+    pub warning: Option<String>,
 }
 
 /// What a proposal does.
@@ -85,6 +91,10 @@ pub struct Cut {
     pub path: Vec<Coord<f64>>,
     /// Where it ends.
     pub to: Place,
+    /// Its class; `None` for the planner's choice.
+    pub class: Option<RoadClass>,
+    /// Its full width, metres; `None` for [`PlanOptions::street_width`].
+    pub width: Option<f64>,
 }
 
 /// What fills a block.

@@ -29,6 +29,7 @@ impl Splitter for SkeletonParceler {
                 cost: 0.0,
                 action: Action::Fill(fill),
                 lineage: Lineage::of(region, self.name()),
+                warning: None,
             }];
         }
         let options = scene.options;
@@ -45,6 +46,7 @@ impl Splitter for SkeletonParceler {
             cost: 0.0,
             action: Action::Fill(fill),
             lineage: Lineage::of(region, self.name()),
+            warning: None,
         }]
     }
 }

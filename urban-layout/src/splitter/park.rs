@@ -29,6 +29,7 @@ impl Splitter for ParkFill {
                 template: self.name().to_owned(),
             }),
             lineage: Lineage::of(region, self.name()),
+            warning: None,
         }]
     }
 }

@@ -68,6 +68,7 @@ impl Splitter for ReachSplitter {
                     cost: (taken - gain) / region.area,
                     action: Action::Cut(vec![cut]),
                     lineage: Lineage::of(region, self.name()),
+                    warning: None,
                 })
             })
             .collect();

@@ -50,7 +50,7 @@ impl Splitter for StreamlineSplitter {
         if !service.wants_street(region) && !service.too_long {
             return Vec::new();
         }
-        let Some(field) = field(region, scene.options) else {
+        let Some(field) = field_of(region, scene.options.field) else {
             return Vec::new();
         };
         propose_from(scene, region, &service, &field)
@@ -74,7 +74,7 @@ fn mesh(rings: &[Vec<Coord<f64>>], edge_length: f64) -> Option<Domain> {
 }
 
 /// The cross field of a region, `None` where the region cannot be meshed.
-fn field(region: &Region, options: &PlanOptions) -> Option<Field> {
+pub(crate) fn field_of(region: &Region, kind: FieldKind) -> Option<Field> {
     let edge_length = (region.area.sqrt() / 28.0).clamp(5.0, 25.0);
     let rings = open_rings(region)?;
     let domain = mesh(&rings, edge_length)?;
@@ -86,7 +86,7 @@ fn field(region: &Region, options: &PlanOptions) -> Option<Field> {
         .design(&domain)
         .ok()
     };
-    match options.field {
+    match kind {
         FieldKind::Distance => distance(),
         FieldKind::Boundary => BoundaryField::default().design(&domain).ok(),
         // A triangle has no H-field, and a boundary of very many pieces is not
@@ -106,7 +106,7 @@ const HARMONIC: HarmonicField = HarmonicField {
 /// The region's rings, with the streets that end in the open or lead to a hole
 /// (whose two sides are both the region's) opened to a narrow gap: a mesh needs
 /// simple rings.
-fn open_rings(region: &Region) -> Option<Vec<Vec<Coord<f64>>>> {
+pub(crate) fn open_rings(region: &Region) -> Option<Vec<Vec<Coord<f64>>>> {
     if !region.has_slits() {
         return Some(region.loops.iter().map(|l| l.points.clone()).collect());
     }
@@ -267,6 +267,7 @@ fn propose_from(
         cost,
         action: Action::Cut(cuts),
         lineage: lineage(parts),
+        warning: None,
     };
     let mut out: Vec<Proposal> = Vec::new();
     if !service.too_long {

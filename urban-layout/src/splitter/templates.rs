@@ -95,6 +95,7 @@ impl Splitter for TemplateSplitter {
                     cost: c.distortion,
                     action: action(),
                     lineage,
+                    warning: None,
                 })
                 .into_iter()
                 .collect();
@@ -197,5 +198,6 @@ fn proposal(region: &Region, cost: f64, warped: Warped) -> Proposal {
         cost,
         action: Action::Fill(fill),
         lineage,
+        warning: None,
     }
 }

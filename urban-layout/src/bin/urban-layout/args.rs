@@ -4,9 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use streamline::{CriteriaOptions, Criterion, Ends};
+use urban_layout::design::NetworkSpec;
 use urban_layout::field::FieldOptions;
 use urban_layout::io::svg::Paint;
 use urban_layout::site::Units;
+use urban_layout::splitter::NetworkOptions;
 use urban_layout::streamlines::StreamlineOptions;
 use urban_layout::{Error, FieldKind, PlanOptions, Result, Site};
 
@@ -62,6 +64,18 @@ pub(crate) struct Generate {
     /// Templates that may be used, by name; all if none is named.
     #[arg(long, value_delimiter = ',')]
     pub(crate) templates: Vec<String>,
+    /// Where streets come from.
+    #[arg(long, value_enum, default_value_t = StreetWord::Streamlines)]
+    pub(crate) streets: StreetWord,
+    /// With --streets network: its levels, a TOML file; collectors and local streets that suit the parcels if not given.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) spec: Option<PathBuf>,
+    /// With --streets network: moves of the search for each level, its time.
+    #[arg(long, default_value_t = NetworkOptions::default().moves, value_name = "N")]
+    pub(crate) moves: u64,
+    /// With --streets network: networks that are found for each region, of which the best is taken.
+    #[arg(long, default_value_t = NetworkOptions::default().tries, value_name = "N")]
+    pub(crate) tries: u32,
     /// How freely streets are chosen by quality; 0 always takes the best.
     #[arg(long, default_value_t = PlanOptions::default().temperature)]
     pub(crate) temperature: f64,
@@ -236,6 +250,14 @@ pub(crate) enum Field {
     Boundary,
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum StreetWord {
+    /// One split after the other, along streamlines of the field.
+    Streamlines,
+    /// All at once, a network from a specification.
+    Network,
+}
+
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum UnitWord {
     /// Degrees, unless the file says metres.
@@ -350,8 +372,12 @@ impl Design {
 
 impl Generate {
     /// The options of the `k`-th variation.
-    pub(crate) fn options(&self, k: u32) -> PlanOptions {
-        PlanOptions {
+    ///
+    /// # Errors
+    ///
+    /// A specification that cannot be read, or that nobody asked for.
+    pub(crate) fn options(&self, k: u32) -> Result<PlanOptions> {
+        Ok(PlanOptions {
             seed: self.seed.wrapping_add(u64::from(k)),
             field: self.field.into(),
             parcel_length: self.parcel_length,
@@ -360,8 +386,33 @@ impl Generate {
             templates: self.templates.clone(),
             temperature: self.temperature,
             optimize: !self.no_optimize,
+            network: self.network()?,
             threads: self.threads,
             ..PlanOptions::default()
-        }
+        })
     }
+
+    fn network(&self) -> Result<Option<NetworkOptions>> {
+        if self.streets != StreetWord::Network {
+            return if self.spec.is_some() {
+                Err(Error::usage(
+                    "--spec describes a network of streets; ask for one with --streets network",
+                ))
+            } else {
+                Ok(None)
+            };
+        }
+        Ok(Some(NetworkOptions {
+            spec: self.spec.as_deref().map(read_spec).transpose()?,
+            moves: self.moves,
+            tries: self.tries,
+            ..NetworkOptions::default()
+        }))
+    }
+}
+
+/// The specification in a file.
+pub(crate) fn read_spec(path: &Path) -> Result<NetworkSpec> {
+    let text = std::fs::read_to_string(path).map_err(|e| Error::reading(path, e))?;
+    NetworkSpec::from_toml(&text)
 }

@@ -34,8 +34,11 @@ pub(crate) fn run(job: &Generate) -> Result<u8> {
         let began = Instant::now();
         let plan = {
             let mut bar = Bar::new();
-            generate(&site, &job.options(k), &mut bar)?
+            generate(&site, &job.options(k)?, &mut bar)?
         };
+        for warning in plan.warnings() {
+            eprintln!("warning: {warning}");
+        }
         let m = figures_of(&plan, read, began);
         files.extend(files_of(job, &plan, &m, &job.out.join(&folder))?);
         cards.push((

@@ -9,7 +9,7 @@ use urban_layout::design::{NetworkSpec, NetworkStudy, StudyTraffic, TrafficOptio
 use urban_layout::io;
 use urban_layout::{Error, Result, Site};
 
-use crate::args::NetworkJob;
+use crate::args::{read_spec, NetworkJob};
 
 pub(crate) fn run(job: &NetworkJob) -> Result<u8> {
     let site = job.common.read(&job.site)?;
@@ -17,11 +17,7 @@ pub(crate) fn run(job: &NetworkJob) -> Result<u8> {
         eprintln!("warning: {warning}");
     }
     let spec = match &job.spec {
-        Some(path) => {
-            let text = std::fs::read_to_string(path)
-                .map_err(|e| Error::input(format!("{}: {e}", path.display())))?;
-            NetworkSpec::from_toml(&text)?
-        }
+        Some(path) => read_spec(path)?,
         None => NetworkSpec::default(),
     };
     if !(job.deadline > 0.0 && job.deadline < 1e9) {
