@@ -4,6 +4,7 @@ use geo_types::{Coord, LineString};
 
 use super::graph::{distance, StreetGraph};
 use super::noding::Road;
+use crate::design::{Network, Streets, Way};
 use crate::levels::{Level, Street};
 
 /// The roads of a network that was designed in levels: what was given from the
@@ -13,24 +14,31 @@ use crate::levels::{Level, Street};
 /// both ways.
 #[must_use]
 pub fn roads_of(levels: &[Level], streets: &[Street], classes: usize) -> Vec<Road> {
-    let both_ways = |line: LineString<f64>, class: usize| Road {
+    let road = |line: LineString<f64>, class: usize, one_way: bool| Road {
         line,
         class: class.min(classes.saturating_sub(1)),
-        one_way: false,
+        one_way,
     };
     let mut roads: Vec<Road> = streets
         .iter()
-        .map(|street| both_ways(street.line.clone(), street.level + 1))
+        .map(|street| road(street.line.clone(), street.level + 1, street.one_way))
         .collect();
-    if let Some(first) = levels.first() {
-        let given = (0..first.problem.edges()).filter(|&e| first.problem.is_given(e));
-        let ends = given.map(|e| first.mesh.edges()[e].map(|v| first.mesh.points()[v]));
-        roads.extend(
-            chained(ends.collect())
-                .into_iter()
-                .map(|line| both_ways(line, 0)),
-        );
+    let Some(first) = levels.first() else {
+        return roads;
+    };
+    let none = Network::default();
+    let network = Streets::from(first.outcome.network.as_ref().unwrap_or(&none));
+    let mut both_ways = Vec::new();
+    for e in (0..first.problem.edges()).filter(|&e| first.problem.is_given(e)) {
+        let [a, b] = first.mesh.edges()[e].map(|v| first.mesh.points()[v]);
+        match network.way(&first.problem, e) {
+            Way::Both | Way::Either => both_ways.push([a, b]),
+            Way::Forward => roads.push(road(vec![a, b].into(), 0, true)),
+            Way::Backward => roads.push(road(vec![b, a].into(), 0, true)),
+        }
     }
+    let lines = chained(both_ways).into_iter();
+    roads.extend(lines.map(|line| road(line, 0, false)));
     roads
 }
 
@@ -72,8 +80,8 @@ fn chained(segments: Vec<[Coord<f64>; 2]>) -> Vec<LineString<f64>> {
     lines
 }
 
-/// The nodes where traffic leaves: those at the sinks of the first level. Where
-/// sinks lie side by side on its mesh, as along the boundary, all nodes between
+/// The nodes where traffic leaves: those at the sinks of the first level, those
+/// that were placed among them. Where sinks lie side by side on its mesh, as along the boundary, all nodes between
 /// them; for a sink alone the nearest node.
 ///
 /// `reach` is how far off a node may be from the line between two sinks, metres.
@@ -82,7 +90,10 @@ pub fn exits(graph: &StreetGraph, levels: &[Level], reach: f64) -> Vec<usize> {
     let Some(first) = levels.first() else {
         return Vec::new();
     };
-    let (mesh, sinks) = (&first.mesh, &first.problem.sinks);
+    let mesh = &first.mesh;
+    let mut sinks = first.problem.sinks.clone();
+    let placed = first.outcome.network.iter().flat_map(|n| &n.sinks);
+    placed.for_each(|&v| sinks[v] = true);
     let rim: Vec<bool> = mesh.rim().collect();
     let mut found = Vec::new();
     let mut alone = sinks.clone();

@@ -12,6 +12,7 @@ use serde_json::{json, Value};
 
 use super::NetworkStudy;
 use crate::error::{Error, Result};
+use crate::network::entries;
 use crate::site::Site;
 
 /// How much traffic there is, and how fast.
@@ -22,11 +23,12 @@ pub struct TrafficOptions {
     ///
     /// Default value: 250, as in *Computational Network Design*, section 5.1.
     pub cars_per_km2: f64,
-    /// Speed limits of the levels, metres per second; those of
-    /// [`RoadClass::paper`] where there is none: 30 mph, then 20.
+    /// Cars an hour besides, spread uniformly over all pairs of places where
+    /// streets outside meet the boundary: the through traffic of the paper's
+    /// figure 8, where it is 1,000.
     ///
-    /// Default value: none.
-    pub speeds: Vec<f64>,
+    /// Default value: 0.
+    pub external: f64,
     /// For how many hours.
     ///
     /// Default value: 2.
@@ -46,7 +48,7 @@ impl Default for TrafficOptions {
     fn default() -> Self {
         Self {
             cars_per_km2: 250.0,
-            speeds: Vec::new(),
+            external: 0.0,
             hours: 2.0,
             pieces: 60.0,
             seed: 0,
@@ -54,7 +56,7 @@ impl Default for TrafficOptions {
     }
 }
 
-/// The traffic from within a site to its sinks.
+/// The traffic from within a site to its sinks, and that through it.
 #[derive(Clone, Debug)]
 pub struct StudyTraffic {
     /// The streets, local metres. What was given is of class 0, levels follow.
@@ -84,7 +86,7 @@ impl StudyTraffic {
                 options.cars_per_km2, options.hours
             )));
         }
-        let classes = classes(study, &options.speeds);
+        let classes = classes(study);
         let mut roads: Vec<Road> = Vec::new();
         for part in &study.parts {
             roads.extend(roads_of(&part.levels, &part.streets, classes.len()));
@@ -100,7 +102,9 @@ impl StudyTraffic {
         }
         out.sort_unstable();
         out.dedup();
-        let trips = trips(&graph, &out, &site.parts, cars, options).map_err(fault)?;
+        let mut trips = trips(&graph, &out, &site.parts, cars, options).map_err(fault)?;
+        trips.extend(external(&graph, site, options)?);
+        trips.sort_by(|a, b| a.depart.total_cmp(&b.depart));
         let demand = Demand::of_trips(&trips, options.hours);
         let predicted = assign(&graph, &demand, &Assignment::ShortestTime).map_err(fault)?;
         Ok(Self {
@@ -177,19 +181,44 @@ fn fault(e: TrafficError) -> Error {
     Error::input(format!("traffic: {e}"))
 }
 
-/// The paper's classes under the names of the levels, with the speeds given.
-fn classes(study: &NetworkStudy, speeds: &[f64]) -> Vec<RoadClass> {
+/// The paper's classes under the names of the levels, with their speeds.
+fn classes(study: &NetworkStudy) -> Vec<RoadClass> {
+    // From kilometres an hour to metres a second.
+    let metres = |speed: f64| speed / 3.6;
     let paper = RoadClass::paper();
-    let mut classes = vec![paper[0].clone()];
+    let mut classes = vec![RoadClass {
+        speed: study.spec.existing_speed.map_or(paper[0].speed, metres),
+        ..paper[0].clone()
+    }];
     for (k, level) in study.spec.level.iter().enumerate() {
         let like = &paper[(k + 1).min(paper.len() - 1)];
         classes.push(RoadClass {
             name: level.class.clone(),
-            speed: speeds.get(k).copied().unwrap_or(like.speed),
+            speed: metres(level.speed()),
             ..like.clone()
         });
     }
     classes
+}
+
+/// Trips between the places where streets outside meet the boundary.
+fn external(graph: &StreetGraph, site: &Site, options: &TrafficOptions) -> Result<Vec<Trip>> {
+    if options.external == 0.0 {
+        return Ok(Vec::new());
+    }
+    let places: Vec<_> = entries(site).iter().map(|entry| entry.at).collect();
+    let mut gates = nearest_nodes(graph, &places, &|_| true);
+    gates.sort_unstable();
+    gates.dedup();
+    if gates.len() < 2 {
+        return Err(Error::input(
+            "traffic from outside needs two places where streets outside meet the boundary",
+        ));
+    }
+    // A stream of chance of its own, whatever the trips from within.
+    let seed = options.seed ^ 0x9e37_79b9_7f4a_7c15;
+    let demand = Demand::among(&gates, options.external);
+    demand.trips(options.hours, seed).map_err(fault)
 }
 
 /// One trip for each of so many places spread over the site.

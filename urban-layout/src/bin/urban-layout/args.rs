@@ -206,6 +206,10 @@ pub(crate) struct NetworkJob {
     /// Cars per square kilometre and hour that leave the site.
     #[arg(long, default_value_t = 250.0, value_name = "N")]
     pub(crate) cars: f64,
+    /// Cars an hour besides from each place where a street outside meets the
+    /// boundary to the others, in all.
+    #[arg(long, default_value_t = 0.0, value_name = "N")]
+    pub(crate) external: f64,
     /// Write files for the traffic simulator SUMO, and run it if it is installed.
     #[arg(long)]
     pub(crate) sumo: bool,

@@ -108,6 +108,7 @@ fn traffic(
 ) -> Result<(Option<StudyTraffic>, Option<Simulated>)> {
     let options = TrafficOptions {
         cars_per_km2: job.cars,
+        external: job.external,
         seed: job.seed,
         ..TrafficOptions::default()
     };

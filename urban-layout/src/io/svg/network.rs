@@ -5,6 +5,7 @@ use geo_types::Coord;
 use super::canvas::{Anchor, Lettering, PathData};
 use super::picture::{dot, Picture};
 use crate::design::NetworkStudy;
+use crate::plane::{left, length, resample, unit};
 use crate::site::Site;
 
 /// Longer side of the picture, sheet units (200 mm), and the legend below.
@@ -94,6 +95,16 @@ pub fn network_svg(study: &NetworkStudy, site: &Site) -> String {
             &format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"45\" {round}"),
         );
     }
+    let mut arrows = PathData::default();
+    for street in streets().filter(|s| s.one_way) {
+        for head in arrow(&street.line.0, ARROW / to.scale) {
+            arrows.line(head.map(|c| to.place(c)), false);
+        }
+    }
+    picture.canvas.path(
+        &arrows.0,
+        &format!("fill=\"none\" stroke=\"{INK}\" stroke-width=\"40\" {round}"),
+    );
     picture.outline();
     for sink in few_sinks(study) {
         dot(&mut picture.canvas, to.place(sink), 110.0, "#c92a2a");
@@ -103,6 +114,25 @@ pub fn network_svg(study: &NetworkStudy, site: &Site) -> String {
     }
     legend(&mut picture, far);
     picture.finish()
+}
+
+/// Length of the arms of an arrow, sheet units; one for every twelve of them.
+const ARROW: f64 = 170.0;
+
+/// Arrows along a one-way street, one in its middle at least.
+fn arrow(line: &[Coord<f64>], size: f64) -> Vec<[Coord<f64>; 3]> {
+    let whole = length(line);
+    let count = (whole / (12.0 * size)).floor().max(1.0);
+    // The middles of so many equal parts, each with the point just before it.
+    let points = resample(line, whole / (4.0 * count));
+    let mut found = Vec::new();
+    for k in (2..points.len()).step_by(4) {
+        let (tip, along) = (points[k], unit(points[k] - points[k - 1]));
+        let back = tip - along * size;
+        let aside = left(along) * (0.6 * size);
+        found.push([back + aside, tip, back - aside]);
+    }
+    found
 }
 
 /// The sinks of first levels, but where the whole boundary is one.
