@@ -55,7 +55,7 @@ impl Problem {
     /// The problem with its open sinks placed: these vertices are sinks, and
     /// have to be active. Itself, if none is to be placed.
     ///
-    /// What [`distances`](super::distances) and [`cost`] say of a network of
+    /// What [`distances`](super::distances) and [`cost`](super::cost) say of a network of
     /// such a problem holds for what is settled.
     ///
     /// ```

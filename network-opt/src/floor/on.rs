@@ -15,7 +15,7 @@ use crate::error::DesignError;
 /// A storey on its mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Floor {
-    /// What is asked: rooms of [`FloorSpecification::rooms`] by name, then one
+    /// What is asked: the rooms of a [`FloorSpecification`] by name, then one
     /// for each shaft that takes faces, which is placed in every valid answer.
     pub problem: Problem,
     /// The vertices at which people come in.
