@@ -1,5 +1,7 @@
 #![doc = include_str!("../README.md")]
 
+pub mod syntax;
+
 pub use geo_types;
 use geo_types::Polygon;
 
