@@ -442,7 +442,7 @@ impl Run<'_> {
                 .hint("divide first, and put things onto the parts in their own rules"));
         }
         let outputs = outputs(operation);
-        let centre = match outputs.get(2) {
+        let centre = match outputs.get(2).copied().flatten() {
             Some(branch) => self.leading_shape(node, &branch.body, places, 0)?,
             None => None,
         };
@@ -470,7 +470,7 @@ impl Run<'_> {
         })?;
         node.divided = true;
         for (k, output) in partition.outputs.into_iter().enumerate() {
-            let branch = outputs.get(k).copied();
+            let branch = outputs.get(k).copied().flatten();
             for region in output.regions {
                 let mut child = Node {
                     region,
@@ -666,14 +666,11 @@ impl Run<'_> {
 }
 
 /// The outputs that the blocks of an operation name: the branches of its only
-/// block, or one for each block.
-pub(crate) fn outputs(operation: &Operation) -> Vec<&Branch> {
+/// block, or one for each block; `None` for an empty one.
+pub(crate) fn outputs(operation: &Operation) -> Vec<Option<&Branch>> {
     match operation.blocks.as_slice() {
-        [only] => only.branches.iter().collect(),
-        blocks => blocks
-            .iter()
-            .flat_map(|block| block.branches.first())
-            .collect(),
+        [only] => only.branches.iter().map(Some).collect(),
+        blocks => blocks.iter().map(|block| block.branches.first()).collect(),
     }
 }
 
