@@ -116,6 +116,7 @@ pub(crate) const WORDS: &[&str] = &[
     "CENTRE",
     // Grid and FitRectangle.
     "Exact",
+    "Apart",
     "own",
     "oriented",
     "bounding",

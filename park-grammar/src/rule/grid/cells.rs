@@ -2,11 +2,15 @@
 
 use super::symmetry::{number_sides, Symmetry};
 use super::*;
-use crate::plane::{lerp, quad_angles, quad_coordinates, quad_point};
+use crate::plane::{lerp, quad_angles, quad_area, quad_coordinates, quad_point};
 use crate::shape::Cell;
 
 /// Points this near to a line, as a share of the quad's size, are on it.
 const ON: f64 = 1e-7;
+
+/// A cell that fills less than this share of its quad has been cut off by the
+/// region's edge, and not just by a centre.
+const FULL: f64 = 0.85;
 
 /// A grid's lines in its quad.
 #[derive(Debug)]
@@ -16,6 +20,8 @@ pub(super) struct Lattice {
     lines: [Vec<Line>; 2],
     /// Where the grid begins and ends along x and y, in the same way.
     ends: [[Line; 2]; 2],
+    /// Whether the grid ends before its quad does, along x and along y.
+    short: [bool; 2],
     /// Half the width of a path.
     half: f64,
     /// Size of the quad.
@@ -65,6 +71,7 @@ impl Lattice {
             quad,
             lines: [columns, rows],
             ends: [x_ends, y_ends],
+            short: [x, y].map(|cuts| cuts.from > ON * cuts.extent),
             half,
             size: dist(a, c).max(dist(b, d)),
         }
@@ -74,14 +81,12 @@ impl Lattice {
     pub(super) fn framed(&self, areas: &[Area]) -> (Vec<Area>, Vec<Area>) {
         let mut within = areas.to_vec();
         let mut rest = Vec::new();
-        for [from, to] in &self.ends {
-            // Where the grid ends with its quad nothing is cut off.
-            let slack = ON * self.size;
-            let [below, above] = split(&within, &from.moved(-slack), 0.0);
-            rest.extend(below);
-            let [within_, beyond] = split(&above, &to.moved(slack), 0.0);
-            rest.extend(beyond);
-            within = within_;
+        let short = self.ends.iter().zip(self.short).filter(|(_, short)| *short);
+        for ([from, to], _) in short {
+            let [before, after] = split(&within, from, 0.0);
+            let [between, beyond] = split(&after, to, 0.0);
+            rest.extend(before.into_iter().chain(beyond));
+            within = between;
         }
         (within, rest)
     }
@@ -122,32 +127,19 @@ impl Lattice {
         found.into_iter().map(|(_, area)| area).collect()
     }
 
-    /// The cells of areas without the centres.
-    pub(super) fn cells(&self, inside: &[Area], centres: &[Area]) -> Vec<Piece> {
+    /// The cells of areas.
+    pub(super) fn cells(&self, inside: &[Area]) -> Vec<Piece> {
         let of = [self.lines[0].len() + 1, self.lines[1].len() + 1];
-        let centres = Centres::new(centres);
         let mut found = Vec::new();
-        for (column, strip) in strips(inside.to_vec(), &self.lines[0], self.half)
-            .into_iter()
-            .enumerate()
-        {
-            for (row, areas) in strips(strip, &self.lines[1], self.half)
-                .into_iter()
-                .enumerate()
-            {
+        let columns = strips(inside.to_vec(), &self.lines[0], self.half);
+        for (column, strip) in columns.into_iter().enumerate() {
+            let rows = strips(strip, &self.lines[1], self.half);
+            for (row, areas) in rows.into_iter().enumerate() {
                 let cell = Cell {
                     at: [column, row],
                     of,
                 };
-                for area in areas {
-                    let near = centres.near(&area);
-                    let parts = if near.is_empty() {
-                        vec![area]
-                    } else {
-                        difference(&[area], &near)
-                    };
-                    found.extend(parts.into_iter().map(|area| Piece { area, cell }));
-                }
+                found.extend(areas.into_iter().map(|area| Piece { area, cell }));
             }
         }
         found
@@ -227,10 +219,26 @@ impl Lattice {
             _ => None,
         };
         // Lines that cross within a cell, or hardly meet, give it no corners.
-        Local::new(
-            spanned.unwrap_or_else(|| named_by(box_along(&area.outer, axes[0]), axes[0], axes[1])),
-        )
+        let spanned =
+            spanned.unwrap_or_else(|| named_by(box_along(&area.outer, axes[0]), axes[0], axes[1]));
+        // Of a cell that the region's edge cuts off much, a corner as the lines
+        // have it may lie outside; then its own corners are those of its ground.
+        let own = (area.size() < FULL * quad_area(&spanned))
+            .then(|| meeting(area, axes))
+            .flatten();
+        Local::new(own.unwrap_or(spanned))
     }
+}
+
+/// The quad of an area's own vertices that lie farthest towards the four corners,
+/// if it is one that coordinates can follow.
+fn meeting(area: &Area, [x, y]: [Coord<f64>; 2]) -> Option<Quad> {
+    let quad = crate::index::meeting_points(&area.outer, x, y).map(|k| area.outer[k]);
+    let least = crate::index::Thresholds::DEFAULT.square;
+    quad_angles(&quad)?
+        .iter()
+        .all(|a| *a >= least)
+        .then_some(quad)
 }
 
 /// The part of a quad, between its own coordinates, that an area reaches.
@@ -285,6 +293,22 @@ fn strips(areas: Vec<Area>, lines: &[Line], half: f64) -> Vec<Vec<Area>> {
     let [before, after] = split(&areas, &lines[middle], half);
     let mut found = strips(before, &lines[..middle], half);
     found.extend(strips(after, &lines[middle + 1..], half));
+    found
+}
+
+/// What centres leave of cells.
+pub(super) fn without(cells: Vec<Piece>, centres: &[Area]) -> Vec<Piece> {
+    let centres = Centres::new(centres);
+    let mut found = Vec::with_capacity(cells.len());
+    for Piece { area, cell } in cells {
+        let near = centres.near(&area);
+        if near.is_empty() {
+            found.push(Piece { area, cell });
+        } else {
+            let parts = difference(&[area], &near);
+            found.extend(parts.into_iter().map(|area| Piece { area, cell }));
+        }
+    }
     found
 }
 

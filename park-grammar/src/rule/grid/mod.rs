@@ -18,7 +18,8 @@
 //! cell of a grid above, mirrored with it.
 //!
 //! The region is cut along one dividing line after the other, so that lines which
-//! lean until they cross make a partition all the same. A path is what is left
+//! lean until they cross make a partition all the same. With the flag `Apart` lines
+//! lean no more than keeps them from meeting their neighbours. A path is what is left
 //! between two cuts, half its width on either side of a line; it is had as the
 //! difference of the region and all else, so that nothing is lost.
 //!
@@ -51,7 +52,7 @@ use crate::plane::{
 use crate::shape::{Heritage, Local, Region, Role};
 
 use cells::Lattice;
-use sizes::{Cut, Dimension};
+use sizes::{Cut, Dimension, Laying};
 use symmetry::Symmetry;
 
 /// More cells are a mistake.
@@ -65,6 +66,7 @@ pub(crate) fn grid(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let scope = &mut ask.scope;
     let mut arguments = Arguments::new(ask.operation);
     let exact = arguments.flag(scope, "Exact")?;
+    let apart = arguments.flag(scope, "Apart")?;
     let width = path_width(&mut arguments, scope, ask.path_width)?;
     let size = match arguments.named("size") {
         Some(expr) => positive(scope.metres(expr)?, expr.span, "size")?,
@@ -85,8 +87,14 @@ pub(crate) fn grid(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let fitted = fitting.cut(region, span)?;
     let extent = quad_extent(&fitted.quad);
     let mut cuts = Vec::new();
-    for (dimension, along) in dimensions.iter().zip(extent) {
-        let found = dimension.cuts(along, width, size, exact, scope.chance);
+    for (k, dimension) in dimensions.iter().enumerate() {
+        let laying = Laying {
+            width,
+            size,
+            exact,
+            apart: apart.then_some(extent[1 - k]),
+        };
+        let found = dimension.cuts(extent[k], &laying, scope.chance);
         cuts.push(found.map_err(|error| Failure::unfit(span, error))?);
     }
     let (x, y) = (&cuts[0], &cuts[1]);
@@ -103,23 +111,21 @@ pub(crate) fn grid(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let centres = ask
         .centre
         .map_or_else(Vec::new, |shape| lattice.centres(&inside, shape));
-    let cells = lattice.cells(&inside, &centres);
-    if cells.is_empty() {
-        return Err(Failure::unfit(
-            span,
-            "the paths of the grid leave no room for cells",
-        ));
-    }
-    let taken: Vec<Area> = cells
-        .iter()
-        .map(|cell| cell.area.clone())
-        .chain(centres.iter().cloned())
-        .collect();
+    let cells = lattice.cells(&inside);
     let paths = if width > 0.0 {
+        // Of whole cells: along the edge of a centre that has been cut out of them
+        // rounding would leave paths as thin as a hair.
+        let whole = cells.iter().map(|cell| cell.area.clone());
+        let taken: Vec<Area> = whole.chain(centres.iter().cloned()).collect();
         difference(&inside, &taken)
     } else {
         Vec::new()
     };
+    let cells = cells::without(cells, &centres);
+    if cells.is_empty() {
+        let error = "the paths and centres of the grid leave no room for cells";
+        return Err(Failure::unfit(span, error));
+    }
 
     let heritage = Heritage::new(region, "Grid");
     let regions = cells

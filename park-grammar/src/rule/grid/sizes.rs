@@ -13,6 +13,10 @@ use crate::syntax::ast::{Expr, Span, Unit};
 /// Lines lean by less than this, radians.
 const LEAN: f64 = 80.0 * std::f64::consts::PI / 180.0;
 
+/// The end of a line that is kept apart goes so far into the smaller of the cells
+/// beside it, as a share, so that two that lean towards each other do not meet.
+const APART: f64 = 0.45;
+
 /// More cells in one dimension are a mistake.
 const MOST: usize = 100_000;
 
@@ -40,6 +44,19 @@ pub(super) struct Cuts {
     /// How long the quad is.
     pub(super) extent: f64,
     pub(super) lines: Vec<Cut>,
+}
+
+/// How a dimension is laid into a quad.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Laying {
+    /// Of paths, metres.
+    pub(super) width: f64,
+    /// Of cells of which nothing is said, metres.
+    pub(super) size: f64,
+    /// Whether sizes are not scaled.
+    pub(super) exact: bool,
+    /// Length of the lines, where they are to be kept apart.
+    pub(super) apart: Option<f64>,
 }
 
 impl Cuts {
@@ -120,16 +137,19 @@ impl Dimension {
     }
 
     /// The lines in `extent` metres with paths of `width` between cells; `size`
-    /// metres for cells of which nothing is said. With `exact` sizes are not
-    /// scaled.
+    /// metres for cells of which nothing is said.
     pub(super) fn cuts(
         &self,
         extent: f64,
-        width: f64,
-        size: f64,
-        exact: bool,
+        laying: &Laying,
         chance: &mut Stream,
     ) -> Result<Cuts, String> {
+        let &Laying {
+            width,
+            size,
+            exact,
+            apart,
+        } = laying;
         let drawn = self.drawn(extent, width, size, chance);
         if drawn.len() > MOST {
             return Err(format!("{} cells in a row are too many", drawn.len()));
@@ -164,14 +184,18 @@ impl Dimension {
         let from = 0.5 * (extent - taken).max(0.0);
         let mut end = from;
         let mut lines = Vec::with_capacity(lengths.len() - 1);
-        for (k, length) in lengths.iter().enumerate().take(lengths.len() - 1) {
-            end += length * scale;
+        for (k, pair) in lengths.windows(2).enumerate() {
+            end += pair[0] * scale;
+            let angle = self.entry(k).and_then(|s| s.angle);
+            let mut lean = angle.map_or(0.0, |a| chance.between(a));
+            if let Some(across) = apart {
+                let farthest = APART * scale * pair[0].min(pair[1]);
+                let most = farthest.atan2(0.5 * across);
+                lean = lean.clamp(-most, most);
+            }
             lines.push(Cut {
                 at: end + 0.5 * width,
-                lean: self
-                    .entry(k)
-                    .and_then(|s| s.angle)
-                    .map_or(0.0, |a| chance.between(a)),
+                lean,
             });
             end += width;
         }
@@ -238,10 +262,19 @@ mod tests {
         }
     }
 
+    fn laying(width: f64, exact: bool) -> Laying {
+        Laying {
+            width,
+            size: 4.0,
+            exact,
+            apart: None,
+        }
+    }
+
     fn places(dimension: &Dimension, extent: f64, width: f64, exact: bool) -> Vec<f64> {
         let mut chance = Stream::new(1);
         let cuts = dimension
-            .cuts(extent, width, 4.0, exact, &mut chance)
+            .cuts(extent, &laying(width, exact), &mut chance)
             .expect("fits");
         cuts.lines.iter().map(|cut| cut.at).collect()
     }
@@ -276,11 +309,36 @@ mod tests {
     #[test]
     fn paths_need_room() {
         let many = sized(Some(11), &[]);
-        let found = many.cuts(20.0, 2.0, 4.0, false, &mut Stream::new(1));
+        let found = many.cuts(20.0, &laying(2.0, false), &mut Stream::new(1));
         assert!(found.is_err());
         let large = sized(Some(3), &[Some(9.0)]);
         assert!(large
-            .cuts(20.0, 0.0, 4.0, true, &mut Stream::new(1))
+            .cuts(20.0, &laying(0.0, true), &mut Stream::new(1))
             .is_err());
+    }
+
+    /// Of cells of 2 m and lines of 10 m: 45 % of 2 m in half of 10 m.
+    #[test]
+    fn lines_can_be_kept_apart() {
+        let leaning = Dimension {
+            count: Some(5),
+            sizes: vec![SizeRange {
+                length: None,
+                angle: Some([0.5, 0.5]),
+            }],
+        };
+        let mut apart = laying(0.0, false);
+        let free = leaning
+            .cuts(10.0, &apart, &mut Stream::new(1))
+            .expect("fits");
+        assert!(free.lines.iter().all(|line| line.lean == 0.5));
+        apart.apart = Some(10.0);
+        let kept = leaning
+            .cuts(10.0, &apart, &mut Stream::new(1))
+            .expect("fits");
+        assert!(kept
+            .lines
+            .iter()
+            .all(|line| (line.lean.tan() - 0.18).abs() < 1e-12));
     }
 }
