@@ -55,12 +55,15 @@ pub(crate) fn box_along(points: &[Coord<f64>], x: Coord<f64>) -> [Coord<f64>; 4]
     ]
 }
 
-/// The box of least area around points, in any direction; of several the one
-/// that is turned least from the axes of the plane. Its x axis points east, or
-/// within 45 degrees of it.
+/// The box of least area around points, in any direction. Its x axis points east,
+/// or within 45 degrees of it.
+///
+/// Of several (a triangle has three) the one along the longest edge, whichever way
+/// the points are turned; of those the one that is turned least from the axes of
+/// the plane.
 pub(crate) fn oriented_box(points: &[Coord<f64>]) -> [Coord<f64>; 4] {
     let hull = hull(points);
-    let mut best: Option<([Coord<f64>; 4], f64, f64)> = None;
+    let mut boxes = Vec::with_capacity(hull.len());
     for (a, b) in super::sides(&hull) {
         // All four directions of an edge make one box.
         let mut x = unit(b - a);
@@ -68,16 +71,15 @@ pub(crate) fn oriented_box(points: &[Coord<f64>]) -> [Coord<f64>; 4] {
             x = right(x);
         }
         let found = box_along(&hull, x);
-        let (size, turn) = (quad_area(&found), x.y.abs());
-        let better = best.as_ref().is_none_or(|(_, least, turned)| {
-            size < least * (1.0 - SAME) || (size < least * (1.0 + SAME) && turn < *turned)
-        });
-        if better {
-            best = Some((found, size, turn));
-        }
+        boxes.push((found, quad_area(&found), dist(a, b), x.y.abs()));
     }
+    let least = boxes.iter().map(|b| b.1).fold(f64::INFINITY, f64::min);
+    boxes.retain(|b| b.1 <= least * (1.0 + SAME));
+    let longest = boxes.iter().map(|b| b.2).fold(0.0, f64::max);
+    boxes.retain(|b| b.2 >= longest * (1.0 - SAME));
+    let best = boxes.into_iter().min_by(|a, b| a.3.total_cmp(&b.3));
     let upright = Coord { x: 1.0, y: 0.0 };
-    best.map_or_else(|| box_along(points, upright), |(found, _, _)| found)
+    best.map_or_else(|| box_along(points, upright), |best| best.0)
 }
 
 /// Area of a quad, whichever way it is wound.

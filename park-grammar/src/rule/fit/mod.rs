@@ -32,8 +32,8 @@ use crate::derive::{Scope, Value};
 use crate::error::Failure;
 use crate::index::{self, Thresholds};
 use crate::plane::{
-    box_along, difference, dist, extent, intersection, named_by, norm, oriented_box, quad_angles,
-    unit, Area,
+    box_along, difference, dist, dot, extent, intersection, named_by, norm, oriented_box,
+    quad_angles, right, unit, Area,
 };
 use crate::shape::Region;
 use crate::syntax::ast::{Expr, Span};
@@ -220,9 +220,22 @@ impl Fitting {
             })?,
             Fit::Oriented => oriented_box(ring),
             Fit::Bounding => box_along(ring, self.direction),
-            Fit::Axis => inscribed::along(&region.area, self.direction).ok_or_else(nothing)?,
-            Fit::Inscribed => inscribed::largest(&region.area).ok_or_else(nothing)?,
-            Fit::Optimised => optimised::nearest(&region.area).ok_or_else(nothing)?,
+            Fit::Axis => {
+                let own = Own::of(region);
+                let along = own.to(self.direction) - own.to(Coord::default());
+                let found = inscribed::along(&own.area, along).ok_or_else(nothing)?;
+                found.map(|p| own.from(p))
+            }
+            Fit::Inscribed => {
+                let own = Own::of(region);
+                let found = inscribed::largest(&own.area).ok_or_else(nothing)?;
+                found.map(|p| own.from(p))
+            }
+            Fit::Optimised => {
+                let own = Own::of(region);
+                let found = optimised::nearest(&own.area).ok_or_else(nothing)?;
+                found.map(|p| own.from(p))
+            }
             Fit::Indexed => indexed(region),
             Fit::Meeting => {
                 let [x, y] = region.local.axes();
@@ -239,6 +252,45 @@ impl Fitting {
 
     fn suits(&self, quad: &Quad) -> bool {
         quad_angles(quad).is_some_and(|a| a.iter().all(|a| *a >= self.min_angle - 1e-9))
+    }
+}
+
+/// An area as the region's own coordinates have it, in metres: what is searched
+/// there is found alike in regions that are mirror images.
+struct Own {
+    origin: Coord<f64>,
+    x: Coord<f64>,
+    y: Coord<f64>,
+    area: Area,
+}
+
+impl Own {
+    fn of(region: &Region) -> Self {
+        let [x, _] = region.local.axes();
+        let sign = if region.local.mirrored() { 1.0 } else { -1.0 };
+        let mut own = Self {
+            origin: region.local.corners[0],
+            x,
+            y: right(x) * sign,
+            area: Area::default(),
+        };
+        let ring = |ring: &Vec<Coord<f64>>| ring.iter().map(|&p| own.to(p)).collect();
+        let holes = region.area.holes.iter().map(ring).collect();
+        let area = Area::new(ring(&region.area.outer), holes);
+        own.area = area;
+        own
+    }
+
+    fn to(&self, p: Coord<f64>) -> Coord<f64> {
+        let away = p - self.origin;
+        Coord {
+            x: dot(away, self.x),
+            y: dot(away, self.y),
+        }
+    }
+
+    fn from(&self, p: Coord<f64>) -> Coord<f64> {
+        self.origin + self.x * p.x + self.y * p.y
     }
 }
 

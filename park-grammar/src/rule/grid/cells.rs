@@ -95,19 +95,11 @@ impl Lattice {
     pub(super) fn centres(&self, inside: &[Area], shape: Primitive) -> Vec<Area> {
         let radius = shape.radius();
         let mut found: Vec<(Coord<f64>, Area)> = Vec::new();
-        let [along, _] = Local::new(self.quad).axes();
-        let mirrored = Local::new(self.quad).mirrored();
-        let mut crossings: Vec<Coord<f64>> = self.lines[0]
-            .iter()
-            .flat_map(|column| self.lines[1].iter().filter_map(|row| column.meets(row)))
-            .collect();
-        crossings.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
-        for at in crossings {
+        for at in self.crossings() {
             let Some(land) = inside.iter().find(|area| area.contains(at)) else {
                 continue;
             };
-            let ring = placed(shape, at, along, mirrored);
-            let mut parts = vec![Area::new(ring, Vec::new())];
+            let mut parts = vec![self.placed(shape, at)];
             if land.nearest(at).1 < radius * (1.0 + 1e-9) {
                 parts = intersection(&parts, &[land.clone()]);
             }
@@ -125,6 +117,58 @@ impl Lattice {
             found.extend(parts.into_iter().map(|area| (at, area)));
         }
         found.into_iter().map(|(_, area)| area).collect()
+    }
+
+    /// Where lines cross, from west to east of the map.
+    fn crossings(&self) -> Vec<Coord<f64>> {
+        let of = |column: &Line| -> Vec<Coord<f64>> {
+            let rows = self.lines[1].iter();
+            rows.filter_map(|row| column.meets(row)).collect()
+        };
+        let mut found: Vec<_> = self.lines[0].iter().flat_map(of).collect();
+        found.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
+        found
+    }
+
+    /// A shape whose upright is that of the grid, mirrored with it.
+    fn placed(&self, shape: Primitive, at: Coord<f64>) -> Area {
+        let local = Local::new(self.quad);
+        let [along, _] = local.axes();
+        let sign = if local.mirrored() { 1.0 } else { -1.0 };
+        let up = crate::plane::right(along) * sign;
+        let upright = shape.ring(Coord::default(), 0.0);
+        let ring = upright.iter().map(|p| at + along * p.x + up * p.y);
+        Area::new(ring.collect(), Vec::new())
+    }
+
+    /// All that paths do not cover: cells and centres that go on beyond the areas
+    /// and overlap each other. Cells as the areas' edges and centres cut them have
+    /// those edges up to rounding, which would leave paths as thin as a hair along
+    /// them.
+    pub(super) fn beside(&self, inside: &[Area], shape: Option<Primitive>) -> Vec<Area> {
+        let points: Vec<Coord<f64>> = inside
+            .iter()
+            .flat_map(|a| a.outer.iter().copied())
+            .collect();
+        let (low, high) = crate::plane::extent(&points);
+        let more = (high - low) * 0.1
+            + Coord {
+                x: self.half,
+                y: self.half,
+            };
+        let wide = box_along(&[low - more, high + more], Coord { x: 1.0, y: 0.0 });
+        let wide = Area::new(wide.to_vec(), Vec::new());
+        let mut found: Vec<Area> = self
+            .cells(&[wide])
+            .into_iter()
+            .map(|piece| piece.area)
+            .collect();
+        if let Some(shape) = shape {
+            let crossings = self.crossings().into_iter();
+            let within = crossings.filter(|&at| inside.iter().any(|area| area.contains(at)));
+            found.extend(within.map(|at| self.placed(shape, at)));
+        }
+        found
     }
 
     /// The cells of areas.
@@ -271,16 +315,6 @@ fn reached(quad: &Quad, area: &Area) -> Option<Quad> {
     let finite = part.iter().all(|p| p.x.is_finite() && p.y.is_finite());
     let same = Local::new(part).mirrored() == Local::new(*quad).mirrored();
     (finite && same && quad_angles(&part).is_some()).then_some(part)
-}
-
-/// A shape whose upright is that of the grid, mirrored with it.
-fn placed(shape: Primitive, at: Coord<f64>, along: Coord<f64>, mirrored: bool) -> Vec<Coord<f64>> {
-    let up = crate::plane::right(along) * if mirrored { 1.0 } else { -1.0 };
-    let upright = shape.ring(Coord::default(), 0.0);
-    upright
-        .into_iter()
-        .map(|p| at + along * p.x + up * p.y)
-        .collect()
 }
 
 /// Areas between lines that have what comes first on their left; halved again and

@@ -113,11 +113,7 @@ pub(crate) fn grid(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
         .map_or_else(Vec::new, |shape| lattice.centres(&inside, shape));
     let cells = lattice.cells(&inside);
     let paths = if width > 0.0 {
-        // Of whole cells: along the edge of a centre that has been cut out of them
-        // rounding would leave paths as thin as a hair.
-        let whole = cells.iter().map(|cell| cell.area.clone());
-        let taken: Vec<Area> = whole.chain(centres.iter().cloned()).collect();
-        difference(&inside, &taken)
+        difference(&inside, &lattice.beside(&inside, ask.centre))
     } else {
         Vec::new()
     };
@@ -187,3 +183,6 @@ fn positive(value: f64, span: crate::syntax::ast::Span, what: &str) -> Result<f6
         Err(Failure::fault(span, format!("{what} must be positive")))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -33,23 +33,25 @@ use crate::rule::Arguments;
 use crate::shape::{Cell, Local, Reach, Region};
 use crate::syntax::ast::Expr;
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Middle {
+    #[default]
     Centre,
     Left,
     Right,
     Local,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Inner {
+    #[default]
     Mirror,
     Pair,
     Extended,
 }
 
 /// What the arguments `middle` and `symmetry` say.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Symmetry {
     middle: Middle,
     inner: Inner,
