@@ -58,6 +58,10 @@ use symmetry::Symmetry;
 /// More cells are a mistake.
 const MOST: usize = 250_000;
 
+/// What is smaller than this share of the region is rounding where a line passes
+/// along its edge or through a vertex.
+const SLIVER: f64 = 1e-12;
+
 /// Metres of a cell in a dimension of which nothing is said.
 const SIZE: f64 = 4.0;
 
@@ -117,7 +121,9 @@ pub(crate) fn grid(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     } else {
         Vec::new()
     };
-    let cells = cells::without(cells, &centres);
+    let mut cells = cells::without(cells, &centres);
+    let least = SLIVER * region.area.size();
+    cells.retain(|cell| cell.area.size() > least);
     if cells.is_empty() {
         let error = "the paths and centres of the grid leave no room for cells";
         return Err(Failure::unfit(span, error));
@@ -131,7 +137,8 @@ pub(crate) fn grid(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let [along, up] = Local::new(lattice.quad).axes();
     let plain = |areas: Vec<Area>, role: Role| -> Vec<Region> {
         let piece = |area| piece(&heritage, area, [along, up], role);
-        areas.into_iter().map(piece).collect()
+        let solid = areas.into_iter().filter(|area| area.size() > least);
+        solid.map(piece).collect()
     };
     let outside = fitted.outside.into_iter().chain(rest).collect();
     Ok(Partition {
