@@ -1,17 +1,15 @@
 //! Search for a maximum without derivatives.
 
-/// Steps are halved until they are this share of the first ones.
-const LEAST: f64 = 1e-10;
-
 /// Rounds at most, whatever is found.
 const ROUNDS: usize = 400;
 
 /// Goes uphill from `start`, along one axis at a time, with steps that are halved
 /// where none leads up (Hooke and Jeeves' pattern search, with their leap along
-/// what a round has found).
+/// what a round has found), until they are the share `least` of the first ones.
 pub(crate) fn climb<const N: usize>(
     start: [f64; N],
     step: [f64; N],
+    least: f64,
     height: impl Fn(&[f64; N]) -> f64,
 ) -> ([f64; N], f64) {
     let (mut at, mut best) = (start, height(&start));
@@ -40,7 +38,7 @@ pub(crate) fn climb<const N: usize>(
             }
         } else {
             scale *= 0.5;
-            if scale < LEAST {
+            if scale < least {
                 break;
             }
         }
@@ -55,7 +53,7 @@ mod tests {
     #[test]
     fn finds_the_top_of_a_hill() {
         let hill = |p: &[f64; 2]| -(p[0] - 3.0).powi(2) - 4.0 * (p[1] + 1.0 - 0.2 * p[0]).powi(2);
-        let (at, top) = climb([0.0, 0.0], [1.0, 1.0], hill);
+        let (at, top) = climb([0.0, 0.0], [1.0, 1.0], 1e-10, hill);
         assert!(
             (at[0] - 3.0).abs() < 1e-4 && (at[1] + 0.4).abs() < 1e-4,
             "{at:?}"

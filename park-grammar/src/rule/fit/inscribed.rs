@@ -54,20 +54,20 @@ fn best(area: &Area, directions: &[f64], turning: bool) -> Option<[Coord<f64>; 4
     let measure = |draft: &Draft| Turned::new(area, draft[0]).measure(draft).0;
     let turn = if turning { 0.03 } else { 0.0 };
     let step = [turn, 0.02 * size, 0.02 * size, 0.02 * size];
-    // Along a wall a corner is left by moving both ends at once, which the height
-    // and the middle as coordinates allow.
-    let ends = |[angle, middle, half, x]: [f64; 4]| [angle, middle - half, middle + half, x];
-    let mut found: Option<(f64, Draft)> = None;
-    for (_, [angle, low, high, x]) in drafts {
-        let (at, _) = climb([angle, low, high, x], step, measure);
-        let spread = [at[0], 0.5 * (at[1] + at[2]), 0.5 * (at[2] - at[1]), at[3]];
-        let (spread, top) = climb(spread, step, |p| measure(&ends(*p)));
-        if found.as_ref().is_none_or(|(most, _)| top > *most) {
-            found = Some((top, ends(spread)));
-        }
-    }
-    let (size, draft) = found?;
-    if size <= 0.0 {
+    // Along a wall a corner is left by moving both ends at once, which the middle
+    // and half of the height as coordinates allow.
+    let ends = |[angle, middle, half, x]: Draft| [angle, middle - half, middle + half, x];
+    let middle = |[angle, low, high, x]: Draft| [angle, 0.5 * (low + high), 0.5 * (high - low), x];
+    let polished = |draft: Draft, least: f64| {
+        let (at, _) = climb(draft, step, least, measure);
+        let (at, top) = climb(middle(at), step, least, |p| measure(&ends(*p)));
+        (ends(at), top)
+    };
+    // The best after a rough climb goes on to the top.
+    let rough = drafts.into_iter().map(|(_, draft)| polished(draft, 1e-2));
+    let (best, _) = rough.reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+    let (draft, top) = polished(best, 1e-10);
+    if top <= 0.0 {
         return None;
     }
     let turned = Turned::new(area, draft[0]);

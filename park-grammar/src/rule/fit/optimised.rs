@@ -13,22 +13,24 @@ use crate::plane::{climb, clipped, dist, oriented_box, quad_area, right, signed_
 pub(super) fn nearest(area: &Area) -> Option<Quad> {
     let around = oriented_box(&area.outer);
     let within = inscribed::largest(area);
-    let mut best: Option<([f64; 5], f64)> = None;
     let between = within.map(|quad| {
         let quad = crate::plane::named_by(quad, around[3] - around[0], around[1] - around[0]);
         [0, 1, 2, 3].map(|k| (quad[k] + around[k]) / 2.0)
     });
-    for start in [Some(around), within, between].into_iter().flatten() {
+    let share = |draft: &[f64; 5]| common_share(area, &quad(draft));
+    let step = |at: &[f64; 5]| {
+        let [_, _, _, width, height] = at.map(|s| 0.05 * s);
+        [width, height, 0.05, width, height]
+    };
+    // The best after a rough climb goes on to the top.
+    let starts = [Some(around), within, between].into_iter().flatten();
+    let rough = starts.map(|start| {
         let start = draft(&start);
-        let [_, _, _, width, height] = start.map(|s| 0.05 * s);
-        let step = [width, height, 0.05, width, height];
-        let (at, common) = climb(start, step, |d| common_share(area, &quad(d)));
-        if best.as_ref().is_none_or(|(_, most)| common > *most) {
-            best = Some((at, common));
-        }
-    }
-    best.filter(|(_, common)| *common > 0.0)
-        .map(|(at, _)| quad(&at))
+        climb(start, step(&start), 1e-2, share)
+    });
+    let (best, _) = rough.reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+    let (best, common) = climb(best, step(&best), 1e-9, share);
+    (common > 0.0).then(|| quad(&best))
 }
 
 /// Middle, direction, width and height.
