@@ -676,12 +676,12 @@ pub(crate) fn outputs(operation: &Operation) -> Vec<Option<&Branch>> {
 
 impl Scene {
     fn moved(mut self, by: geo_types::Coord<f64>) -> Self {
+        let ring = |line: &mut geo_types::LineString<f64>| {
+            line.0.iter_mut().for_each(|c| *c = *c + by);
+        };
         let shift = |polygon: &mut Polygon<f64>| {
-            let ring = |line: &geo_types::LineString<f64>| line.0.iter().map(|&c| c + by).collect();
-            *polygon = Polygon::new(
-                ring(polygon.exterior()),
-                polygon.interiors().iter().map(ring).collect(),
-            );
+            polygon.exterior_mut(ring);
+            polygon.interiors_mut(|rings| rings.iter_mut().for_each(ring));
         };
         self.pieces.iter_mut().for_each(|p| shift(&mut p.polygon));
         self.volumes.iter_mut().for_each(|v| shift(&mut v.polygon));

@@ -103,6 +103,17 @@ pub(crate) fn quad_angles(quad: &[Coord<f64>; 4]) -> Option<[f64; 4]> {
     Some(angles)
 }
 
+/// Whether a quad is convex.
+pub(crate) fn quad_is_convex(quad: &[Coord<f64>; 4]) -> bool {
+    let wound = super::signed_area(quad).signum();
+    (0..4).all(|k| {
+        let (a, b, c) = (quad[k], quad[(k + 1) % 4], quad[(k + 2) % 4]);
+        let (before, after) = (b - a, c - b);
+        let turn = cross(before, after) * wound;
+        turn * turn.abs() > 1e-18 * dot(before, before) * dot(after, after)
+    })
+}
+
 /// The same quad as local coordinates of axes near to `x` and `y` have it:
 /// beginning with the corner that is lowest along both.
 pub(crate) fn named_by(quad: [Coord<f64>; 4], x: Coord<f64>, y: Coord<f64>) -> [Coord<f64>; 4] {

@@ -15,7 +15,7 @@ use geo_types::{Coord, LineString, Polygon};
 pub(crate) use boolean::{difference, intersection, union};
 pub(crate) use boxes::{
     box_along, named_by, oriented_box, quad_angles, quad_area, quad_coordinates, quad_extent,
-    quad_point,
+    quad_is_convex, quad_point,
 };
 pub(crate) use climb::climb;
 pub(crate) use split::{clipped, split, Line};

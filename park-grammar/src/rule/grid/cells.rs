@@ -2,7 +2,7 @@
 
 use super::symmetry::{number_sides, Symmetry};
 use super::*;
-use crate::plane::{lerp, quad_angles, quad_area, quad_coordinates, quad_point};
+use crate::plane::{lerp, quad_angles, quad_area, quad_coordinates, quad_is_convex, quad_point};
 use crate::shape::Cell;
 
 /// Points this near to a line, as a share of the quad's size, are on it.
@@ -287,6 +287,9 @@ fn meeting(area: &Area, [x, y]: [Coord<f64>; 2]) -> Option<Quad> {
 
 /// The part of a quad, between its own coordinates, that an area reaches.
 fn reached(quad: &Quad, area: &Area) -> Option<Quad> {
+    if area.outer.len() == 4 && area.size() > (1.0 - 1e-9) * quad_area(quad) {
+        return Some(*quad);
+    }
     let mut low = [f64::INFINITY; 2];
     let mut high = [f64::NEG_INFINITY; 2];
     for &p in &area.outer {
@@ -314,7 +317,7 @@ fn reached(quad: &Quad, area: &Area) -> Option<Quad> {
     ];
     let finite = part.iter().all(|p| p.x.is_finite() && p.y.is_finite());
     let same = Local::new(part).mirrored() == Local::new(*quad).mirrored();
-    (finite && same && quad_angles(&part).is_some()).then_some(part)
+    (finite && same && quad_is_convex(&part)).then_some(part)
 }
 
 /// Areas between lines that have what comes first on their left; halved again and
