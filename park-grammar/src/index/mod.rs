@@ -115,7 +115,7 @@ pub(crate) fn with(region: &mut Region, thresholds: &Thresholds) {
     region.local = Local::new(around);
     if let Some(corners) = quad(ring, &found, x, y).or_else(|| {
         let corners = cardinal::corners(ring, x, y);
-        full.then_some(corners).filter(|c| distinct(c))
+        full.then_some(corners).filter(distinct)
     }) {
         let places = corners.map(|k| ring[k]);
         let square = |angles: [f64; 4]| angles.iter().all(|a| *a >= thresholds.square);

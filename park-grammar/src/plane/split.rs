@@ -106,7 +106,7 @@ fn part(
         vec![near - along, near + along, beyond + along, beyond - along],
         Vec::new(),
     );
-    found.extend(super::intersection(&[area.clone()], &[plane]));
+    found.extend(super::intersection(std::slice::from_ref(area), &[plane]));
 }
 
 fn is_convex(ring: &[Coord<f64>]) -> bool {
@@ -164,7 +164,7 @@ mod tests {
             Vec::new(),
         );
         let line = Line::new(coord! { x: 1., y: 0. }, coord! { x: 0., y: 1. });
-        let [left, right] = split(&[square.clone()], &line, 0.0);
+        let [left, right] = split(std::slice::from_ref(&square), &line, 0.0);
         assert_eq!((total(&left), total(&right)), (4.0, 12.0));
         let [left, right] = split(&[square], &line, 0.5);
         assert_eq!((total(&left), total(&right)), (2.0, 10.0));

@@ -162,7 +162,7 @@ impl Turned {
                 beyond += 1;
             }
         }
-        if beyond % 2 == 0 || !(left.is_finite() && right.is_finite()) {
+        if beyond.is_multiple_of(2) || !(left.is_finite() && right.is_finite()) {
             return nothing;
         }
         ((right - left) * (high - low), [left, right])

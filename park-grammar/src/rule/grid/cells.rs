@@ -101,7 +101,7 @@ impl Lattice {
             };
             let mut parts = vec![self.placed(shape, at)];
             if land.nearest(at).1 < radius * (1.0 + 1e-9) {
-                parts = intersection(&parts, &[land.clone()]);
+                parts = intersection(&parts, std::slice::from_ref(land));
             }
             // Sorted along x, so that what is too far ends the search.
             let before: Vec<Area> = found
