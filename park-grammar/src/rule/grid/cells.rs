@@ -108,39 +108,12 @@ impl Lattice {
         (within, rest)
     }
 
-    /// A centre at each crossing inside the areas, as far as it lies inside.
-    pub(super) fn centres(&self, inside: &[Area], centre: Centre) -> Vec<Area> {
-        let mut found: Vec<(Coord<f64>, Area)> = Vec::new();
-        let crossings = self.crossings();
-        let placed: Vec<Option<Area>> = crossings.iter().map(|c| self.placed(centre, c)).collect();
-        let farthest = crossings.iter().zip(&placed).flat_map(|(crossing, area)| {
-            let points = area.iter().flat_map(|area| &area.outer);
-            points.map(|&p| dist(p, crossing.at))
-        });
-        let radius = farthest.fold(0.0, f64::max);
-        for (Crossing { at, .. }, area) in crossings.into_iter().zip(placed) {
-            let land = inside.iter().find(|area| area.contains(at));
-            let (Some(land), Some(area)) = (land, area) else {
-                continue;
-            };
-            let mut parts = vec![area];
-            if land.nearest(at).1 < radius * (1.0 + 1e-9) {
-                parts = intersection(&parts, std::slice::from_ref(land));
-            }
-            // Sorted along x, so that what is too far ends the search.
-            let before: Vec<Area> = found
-                .iter()
-                .rev()
-                .take_while(|(p, _)| at.x - p.x < 2.0 * radius)
-                .filter(|(p, _)| dist(*p, at) < 2.0 * radius)
-                .map(|(_, area)| area.clone())
-                .collect();
-            if !before.is_empty() {
-                parts = difference(&parts, &before);
-            }
-            found.extend(parts.into_iter().map(|area| (at, area)));
-        }
-        found.into_iter().map(|(_, area)| area).collect()
+    /// A centre at each crossing inside the areas; whole ones, which may go on
+    /// beyond and overlap.
+    pub(super) fn whole_centres(&self, inside: &[Area], centre: Centre) -> Vec<Area> {
+        let within = |c: &Crossing<'_>| inside.iter().any(|area| area.contains(c.at));
+        let crossings = self.crossings().into_iter().filter(within);
+        crossings.filter_map(|c| self.placed(centre, &c)).collect()
     }
 
     /// Where lines cross, from west to east of the map.
@@ -185,7 +158,7 @@ impl Lattice {
     /// and overlap each other. Cells as the areas' edges and centres cut them have
     /// those edges up to rounding, which would leave paths as thin as a hair along
     /// them.
-    pub(super) fn beside(&self, inside: &[Area], centre: Option<Centre>) -> Vec<Area> {
+    pub(super) fn beside(&self, inside: &[Area], centres: &[Area]) -> Vec<Area> {
         let points: Vec<Coord<f64>> = inside
             .iter()
             .flat_map(|a| a.outer.iter().copied())
@@ -203,11 +176,7 @@ impl Lattice {
             .into_iter()
             .map(|piece| piece.area)
             .collect();
-        if let Some(centre) = centre {
-            let within = |c: &Crossing<'_>| inside.iter().any(|area| area.contains(c.at));
-            let crossings = self.crossings().into_iter().filter(within);
-            found.extend(crossings.filter_map(|c| self.placed(centre, &c)));
-        }
+        found.extend_from_slice(centres);
         found
     }
 
@@ -373,12 +342,39 @@ fn strips(areas: Vec<Area>, lines: &[Line], half: f64) -> Vec<Vec<Area>> {
     found
 }
 
-/// What centres leave of cells.
+/// Whole centres as far as they lie inside the areas and in none before.
+pub(super) fn clipped_centres(whole: &[Area], inside: &[Area]) -> Vec<Area> {
+    let mut found = Vec::with_capacity(whole.len());
+    let all = Centres::new(whole);
+    for area in whole {
+        let middle = area.centroid();
+        let far = area.outer.iter().map(|&p| dist(p, middle));
+        let radius = far.fold(0.0, f64::max);
+        let clear = |land: &Area| land.contains(middle) && land.nearest(middle).1 > radius;
+        let mut parts = vec![area.clone()];
+        if !inside.iter().any(clear) {
+            parts = intersection(&parts, inside);
+        }
+        let before: Vec<Area> = all
+            .near(area)
+            .take_while(|other| !std::ptr::eq(*other, area))
+            .cloned()
+            .collect();
+        if !before.is_empty() {
+            parts = difference(&parts, &before);
+        }
+        found.extend(parts);
+    }
+    found
+}
+
+/// What whole centres leave of cells. Centres that end with the region would leave
+/// hairs along its edge.
 pub(super) fn without(cells: Vec<Piece>, centres: &[Area]) -> Vec<Piece> {
     let centres = Centres::new(centres);
     let mut found = Vec::with_capacity(cells.len());
     for Piece { area, cell } in cells {
-        let near = centres.near(&area);
+        let near: Vec<Area> = centres.near(&area).cloned().collect();
         if near.is_empty() {
             found.push(Piece { area, cell });
         } else {
@@ -413,20 +409,16 @@ impl<'c> Centres<'c> {
         }
     }
 
-    /// Those whose extents meet that of an area.
-    fn near(&self, area: &Area) -> Vec<Area> {
-        if self.sorted.is_empty() {
-            return Vec::new();
-        }
+    /// Those whose extents meet that of an area, in one order for all areas.
+    fn near<'a>(&'a self, area: &Area) -> impl Iterator<Item = &'c Area> + 'a {
         let (low, high) = area.extent();
         let first = self
             .sorted
             .partition_point(|(from, _, _)| from.x < low.x - self.widest);
         self.sorted[first..]
             .iter()
-            .take_while(|(from, _, _)| from.x < high.x)
-            .filter(|(from, to, _)| to.x > low.x && from.y < high.y && to.y > low.y)
-            .map(|(_, _, area)| (*area).clone())
-            .collect()
+            .take_while(move |(from, _, _)| from.x < high.x)
+            .filter(move |(from, to, _)| to.x > low.x && from.y < high.y && to.y > low.y)
+            .map(|(_, _, area)| *area)
     }
 }

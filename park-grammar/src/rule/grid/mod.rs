@@ -122,14 +122,15 @@ pub(crate) fn grid(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
         (None, Some(branch)) if !branch.body.operations.is_empty() => Some(Centre::Crossing),
         (None, _) => None,
     };
-    let centres = centre.map_or_else(Vec::new, |centre| lattice.centres(&inside, centre));
+    let whole = centre.map_or_else(Vec::new, |c| lattice.whole_centres(&inside, c));
+    let centres = cells::clipped_centres(&whole, &inside);
     let cells = lattice.cells(&inside);
     let paths = if width > 0.0 {
-        difference(&inside, &lattice.beside(&inside, centre))
+        difference(&inside, &lattice.beside(&inside, &whole))
     } else {
         Vec::new()
     };
-    let mut cells = cells::without(cells, &centres);
+    let mut cells = cells::without(cells, &whole);
     let least = SLIVER * region.area.size();
     cells.retain(|cell| cell.area.size() > least);
     if cells.is_empty() {
@@ -140,7 +141,7 @@ pub(crate) fn grid(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let heritage = Heritage::new(region, "Grid");
     let regions = cells
         .into_iter()
-        .map(|cell| lattice.region(&heritage, cell, &centres, &symmetry))
+        .map(|cell| lattice.region(&heritage, cell, &whole, &symmetry))
         .collect();
     let [along, up] = Local::new(lattice.quad).axes();
     let plain = |areas: Vec<Area>, role: Role| -> Vec<Region> {
