@@ -2,6 +2,9 @@
 
 mod arguments;
 pub(crate) mod control;
+mod fit;
+mod fit_rectangle;
+mod grid;
 pub(crate) mod place;
 pub(crate) mod points;
 pub(crate) mod primitive;
@@ -101,13 +104,36 @@ pub(crate) const OPERATORS: &[Operator] = &[
     operator("Square", Deed::Shape),
     operator("Rectangle", Deed::Shape),
     operator("Polygon", Deed::Shape),
+    operator("Grid", Deed::Divide(grid::grid)),
+    operator("FitRectangle", Deed::Divide(fit_rectangle::fit_rectangle)),
     operator("Place", Deed::Act(place::place)),
     operator("ScatterCircles", Deed::Points),
     operator("Corners", Deed::Points),
 ];
 
 /// Words that mean something as an argument of some operation: flags and modes.
-pub(crate) const WORDS: [&str; 1] = ["CENTRE"];
+pub(crate) const WORDS: &[&str] = &[
+    "CENTRE",
+    // Grid and FitRectangle.
+    "Exact",
+    "Apart",
+    "own",
+    "oriented",
+    "bounding",
+    "axis",
+    "inscribed",
+    "optimised",
+    "indexed",
+    "meeting",
+    "blend",
+    "centre",
+    "left",
+    "right",
+    "local",
+    "mirror",
+    "pair",
+    "extended",
+];
 
 pub(crate) fn operator_named(name: &str) -> Option<&'static Operator> {
     OPERATORS.iter().find(|o| o.name == name)

@@ -23,7 +23,8 @@ pub(crate) fn place(
     };
     let spots = match value {
         Value::Word(word) if word == "CENTRE" => vec![spot(node.region.area.centroid())],
-        Value::Point(at) => vec![spot(node.region.local.point(at))],
+        // Nothing is drawn where a cell has no such coordinates.
+        Value::Point(at) => node.region.local.point(at).into_iter().map(spot).collect(),
         Value::Spots(spots) => spots,
         other => return Err(other.wrong(argument.value.span, "a place")),
     };
