@@ -5,11 +5,17 @@
 //! are open (the first vertex is not repeated).
 
 mod boolean;
+mod inset;
+mod pole;
+mod sample;
 mod stroke;
 
 use geo_types::{Coord, LineString, Polygon};
 
 pub(crate) use boolean::{difference, intersection, union};
+pub(crate) use inset::{inset_lines, keep_apart, strip, Corner};
+pub(crate) use pole::{middle, pole};
+pub(crate) use sample::Sampler;
 pub(crate) use stroke::{circle, stroke};
 
 /// The vertices of a closed line, the first not repeated.

@@ -1,10 +1,16 @@
 //! The operations: one file a rule.
 
 mod arguments;
+mod circles;
 pub(crate) mod control;
+mod darts;
+mod distribute;
 pub(crate) mod place;
 pub(crate) mod points;
 pub(crate) mod primitive;
+mod scatter;
+mod sweep;
+mod target;
 
 use crate::derive::{Node, Places, Run, Scope};
 use crate::error::Failure;
@@ -102,12 +108,22 @@ pub(crate) const OPERATORS: &[Operator] = &[
     operator("Rectangle", Deed::Shape),
     operator("Polygon", Deed::Shape),
     operator("Place", Deed::Act(place::place)),
+    operator("Scatter", Deed::Act(scatter::scatter)),
+    operator("Distribute", Deed::Act(distribute::distribute)),
+    operator("DistributeSmooth", Deed::Act(sweep::sweep)),
+    operator("Sweep", Deed::Act(sweep::sweep)),
     operator("ScatterCircles", Deed::Points),
     operator("Corners", Deed::Points),
+    operator("Along", Deed::Points),
+    operator("Parametrise", Deed::Points),
 ];
 
 /// Words that mean something as an argument of some operation: flags and modes.
-pub(crate) const WORDS: [&str; 1] = ["CENTRE"];
+pub(crate) const WORDS: [&str; 27] = [
+    "CENTRE", "AREA", "POISSON", "MIDDLES", "EXACT", "THROUGH", "MITRE", "IN", "OUT", "ALONG",
+    "RANDOM", "LINE", "COMPASS", "LEAVE", "REST", "CORNERS", "ANGLE", "SECTOR", "GROW", "DOMINANT",
+    "NORTHERN", "SPLIT", "BASE", "FLANK", "SEGMENT", "SEAM", "ANY",
+];
 
 pub(crate) fn operator_named(name: &str) -> Option<&'static Operator> {
     OPERATORS.iter().find(|o| o.name == name)
@@ -120,4 +136,5 @@ pub(crate) fn names() -> impl Iterator<Item = &'static str> {
     operators
         .chain(materials)
         .chain(library::THINGS.iter().map(|t| t.name))
+        .chain(library::BARRIERS.iter().map(|b| b.name))
 }
