@@ -19,6 +19,10 @@ const REACH: f64 = 4.0;
 /// Distances this near are the same, as a share of them.
 const SAME: f64 = 1e-7;
 
+/// Shares of a distance to be kept that are rounding: less than what counts as
+/// room for a footprint forgives.
+const ROUNDING: f64 = 5e-10;
+
 /// How a strip goes round a corner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Corner {
@@ -153,7 +157,7 @@ fn runs(ring: &[Coord<f64>], on: &[bool]) -> Vec<Vec<Coord<f64>>> {
 /// The parts of a line that keep a distance from all edges of an area.
 pub(crate) fn keep_apart(line: &[Coord<f64>], area: &Area, distance: f64) -> Vec<Vec<Coord<f64>>> {
     let mut parts: Vec<Vec<Coord<f64>>> = Vec::new();
-    let distance = distance * (1.0 - SAME);
+    let distance = distance * (1.0 - ROUNDING);
     // Whether the last part reaches the point where the next segment begins.
     let mut open = false;
     for pair in line.windows(2) {

@@ -193,3 +193,6 @@ fn part(region: &Region, s: Stretch, whole: f64) -> Vec<Coord<f64>> {
     }
     line
 }
+
+#[cfg(test)]
+mod tests;

@@ -11,8 +11,11 @@ use geo_types::Coord;
 
 use super::frame::Frame;
 use super::{Selection, Stretch};
-use crate::plane::{cross, dist};
+use crate::plane::{cross, dist, norm};
 use crate::shape::Region;
+
+/// Distances from a ray that are rounding, as a share of those to the centre.
+const ON: f64 = 1e-12;
 
 /// What lies between the rays at two angles, radians, from `centre`.
 pub(super) fn between(
@@ -27,7 +30,7 @@ pub(super) fn between(
     let sweep = (high - low).rem_euclid(TAU);
     if sweep > PI {
         // The rest is convex.
-        return between(region, frame, centre, [high, low + TAU]).not(region);
+        return between(region, frame, centre, [high, high + TAU - sweep]).not(region);
     }
     let (mut from, mut to) = (frame.direction(low), frame.direction(high));
     if frame.mirrored {
@@ -35,8 +38,10 @@ pub(super) fn between(
     }
     pieces(region, |a, b| {
         let (a, b) = (a - centre, b - centre);
-        let first = positive(cross(from, a), cross(from, b));
-        let second = positive(cross(a, to), cross(b, to));
+        // An edge that lies on a ray is within, whatever its rounding.
+        let tiny = ON * (norm(a) + norm(b));
+        let first = positive(cross(from, a) + tiny, cross(from, b) + tiny);
+        let second = positive(cross(a, to) + tiny, cross(b, to) + tiny);
         [first[0].max(second[0]), first[1].min(second[1])]
     })
 }
