@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 use park_grammar::geo_types::{coord, polygon, Coord, LineString, Polygon};
 use park_grammar::{library, DeriveOptions, Grammar, Scene};
 
-const RULES: &str = r#"grammar 1
+const RULES: &str = r##"grammar 1
 param Oak = Object(radius = 0.5, spread = 4 m, height = 14 m, colour = "#7d8f3f")
 
 Region -> Lawn
@@ -20,7 +20,7 @@ Region -> Lawn
     Place(CORNER[0], CORNER[2], offset = 9) { Oak }
     Scatter(density = 0.15, margin = 3) { 3: Tree | 2: SmallTree | 2: Bush | Oak }
     Distribute(Continuous(SOUTH): 2.5, 12) { Lamp }
-"#;
+"##;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let park = match std::env::args().nth(1) {
@@ -37,7 +37,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
 /// The first ring of a GeoJSON text, degrees made metres around its first point.
 fn outline(text: &str) -> Result<Polygon<f64>, String> {
-    let start = text.find("\"coordinates\"").ok_or("there are no coordinates")?;
+    let start = text
+        .find("\"coordinates\"")
+        .ok_or("there are no coordinates")?;
     let rest = &text[start..];
     let open = rest.find('[').ok_or("there are no coordinates")?;
     let body = rest[open..].trim_start_matches(['[', ' ', '\n', '\t', '\r']);
@@ -51,17 +53,25 @@ fn outline(text: &str) -> Result<Polygon<f64>, String> {
         return Err("there are no coordinates".to_owned());
     };
     let metres = 111_320.0;
-    let points = numbers.chunks_exact(2).map(|p| coord! {
-        x: (p[0] - x) * metres * y.to_radians().cos(),
-        y: (p[1] - y) * metres,
+    let points = numbers.chunks_exact(2).map(|p| {
+        coord! {
+            x: (p[0] - x) * metres * y.to_radians().cos(),
+            y: (p[1] - y) * metres,
+        }
     });
     Ok(Polygon::new(LineString(points.collect()), Vec::new()))
 }
 
 fn svg(scene: &Scene) -> String {
     let points = || scene.pieces.iter().flat_map(|p| &p.polygon.exterior().0);
-    let low = points().fold(coord! { x: f64::MAX, y: f64::MAX }, |a, p| coord! { x: a.x.min(p.x), y: a.y.min(p.y) });
-    let high = points().fold(coord! { x: f64::MIN, y: f64::MIN }, |a, p| coord! { x: a.x.max(p.x), y: a.y.max(p.y) });
+    let low = points().fold(
+        coord! { x: f64::MAX, y: f64::MAX },
+        |a, p| coord! { x: a.x.min(p.x), y: a.y.min(p.y) },
+    );
+    let high = points().fold(
+        coord! { x: f64::MIN, y: f64::MIN },
+        |a, p| coord! { x: a.x.max(p.x), y: a.y.max(p.y) },
+    );
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{} {} {} {}\">\n",
         low.x - 2.0,
@@ -103,7 +113,13 @@ fn shape(out: &mut String, polygon: &Polygon<f64>, colour: &str) {
     let mut path = String::new();
     for ring in std::iter::once(polygon.exterior()).chain(polygon.interiors()) {
         for (k, c) in ring.0.iter().enumerate() {
-            let _ = write!(path, "{}{:.2} {:.2}", if k == 0 { 'M' } else { 'L' }, c.x, -c.y);
+            let _ = write!(
+                path,
+                "{}{:.2} {:.2}",
+                if k == 0 { 'M' } else { 'L' },
+                c.x,
+                -c.y
+            );
         }
         path.push('Z');
     }

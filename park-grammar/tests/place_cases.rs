@@ -101,16 +101,14 @@ fn footprints_do_not_overlap() {
 
 #[test]
 fn rows_of_trees() {
-    // 49.4 m from footprint to footprint in the west: steps of about 5.
+    // 46 m in the west, 2 m from the other sides too: 9 steps of about 5.
     let park = derive("Region -> Distribute(EDGE[0]: 2, 5) { Tree }");
-    assert_eq!(park.objects.len(), 11);
-    assert!(
-        has(&park.objects, 2., 0.3) && has(&park.objects, 2., 49.7) && has(&park.objects, 2., 25.)
-    );
+    assert_eq!(park.objects.len(), 10);
+    assert!(has(&park.objects, 2., 2.) && has(&park.objects, 2., 48.));
     let park = derive("Region -> Distribute(EDGE[0]: 2, 5, MIDDLES) { Tree }");
-    assert!(park.objects.len() == 10 && has(&park.objects, 2., 0.3 + 2.47));
+    assert!(park.objects.len() == 9 && has(&park.objects, 2., 2. + 46. / 18.));
     let park = derive("Region -> Distribute(EDGE[0]: 2, 10, EXACT) { Tree }");
-    // 4 steps, the rest of 9.4 at both ends.
+    // 4 steps, the rest of 6 at both ends.
     assert!(park.objects.len() == 5 && has(&park.objects, 2., 5.) && has(&park.objects, 2., 45.));
     let park = derive("Region -> Distribute(EDGE[0]: 2, count = 3) { Tree }");
     assert!(park.objects.len() == 3 && has(&park.objects, 2., 25.));
@@ -137,9 +135,9 @@ fn rows_have_a_tree_on_each_corner() {
     // The first stands at corner 0 and looks half way between its sides.
     assert!(near(first.at, 5., 5.) && (first.facing.to_degrees() - 45.0).abs() < 1e-6);
     // A and B by turns, twice as many of the first.
-    let park = derive("Region -> Distribute(EDGE[1]: 5, 10) { 2: Tree | Bush }");
+    let park = derive("Region -> Distribute(EDGE[1]: 5, 9) { 2: Tree | Bush }");
     let bushes = park.objects.iter().filter(|o| o.name == "Bush").count();
-    // From 0.5 to 79.5: 8 steps, 9 things.
+    // From 2.5 to 77.5, crowns inside: 8 steps, 9 things.
     assert_eq!((park.objects.len(), bushes), (9, 3));
 }
 
@@ -282,7 +280,8 @@ fn objects_of_the_grammar() {
     let park = grammar
         .derive(&rectangle(), &DeriveOptions::default())
         .expect("derives");
-    assert_eq!(park.objects.len(), 7);
+    // Four steps of 11 m between 3 m and 47 m, and the centre.
+    assert_eq!(park.objects.len(), 6);
     assert!(park
         .objects
         .iter()

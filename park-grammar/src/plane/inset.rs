@@ -129,6 +129,27 @@ pub(crate) fn inset_lines(
         }
     }
     found
+        .into_iter()
+        .map(|line| smooth(line, SAME * offset))
+        .collect()
+}
+
+/// Without steps no longer than `tiny`.
+fn smooth(line: Vec<Coord<f64>>, tiny: f64) -> Vec<Coord<f64>> {
+    let last = line.last().copied();
+    let mut kept: Vec<Coord<f64>> = Vec::with_capacity(line.len());
+    for at in line {
+        if kept.last().is_none_or(|&before| dist(before, at) > tiny) {
+            kept.push(at);
+        }
+    }
+    // The last one stays, and lines that come round are closed.
+    let first = kept.first().copied();
+    let round = kept.len() > 3 && first.zip(last).is_some_and(|(a, b)| dist(a, b) <= tiny);
+    if let (Some(end), Some(last)) = (kept.last_mut(), if round { first } else { last }) {
+        *end = last;
+    }
+    kept
 }
 
 /// The lines that the edges of a ring for which `on` holds make up.
@@ -154,8 +175,15 @@ fn runs(ring: &[Coord<f64>], on: &[bool]) -> Vec<Vec<Coord<f64>>> {
     lines
 }
 
-/// The parts of a line that keep a distance from all edges of an area.
-pub(crate) fn keep_apart(line: &[Coord<f64>], area: &Area, distance: f64) -> Vec<Vec<Coord<f64>>> {
+/// Two ends.
+pub(crate) type Segment = (Coord<f64>, Coord<f64>);
+
+/// The parts of a line that keep a distance from all of some segments.
+pub(crate) fn keep_apart(
+    line: &[Coord<f64>],
+    edges: &[Segment],
+    distance: f64,
+) -> Vec<Vec<Coord<f64>>> {
     let mut parts: Vec<Vec<Coord<f64>>> = Vec::new();
     let distance = distance * (1.0 - ROUNDING);
     // Whether the last part reaches the point where the next segment begins.
@@ -163,7 +191,7 @@ pub(crate) fn keep_apart(line: &[Coord<f64>], area: &Area, distance: f64) -> Vec
     for pair in line.windows(2) {
         let (p, q) = (pair[0], pair[1]);
         let mut free: Vec<[f64; 2]> = vec![[0.0, 1.0]];
-        for (a, b) in area.rings().flat_map(|ring| sides(ring)) {
+        for &(a, b) in edges {
             let Some([from, to]) = near(p, q, a, b, distance) else {
                 continue;
             };
@@ -248,6 +276,10 @@ mod tests {
         Area::new(ring, Vec::new())
     }
 
+    fn edges(area: &Area) -> Vec<Segment> {
+        sides(&area.outer).collect()
+    }
+
     #[test]
     fn lines_are_drawn_in() {
         let square = area(&[(0., 0.), (0., 4.), (4., 4.), (4., 0.)]);
@@ -260,7 +292,7 @@ mod tests {
         let west = vec![coord! { x: 0., y: 0. }, coord! { x: 0., y: 4. }];
         let lines = inset_lines(&square, &[west], 1.0);
         assert_eq!(lines, [[coord! { x: 1., y: 0. }, coord! { x: 1., y: 4. }]]);
-        let kept = keep_apart(&lines[0], &square, 0.5);
+        let kept = keep_apart(&lines[0], &edges(&square), 0.5);
         assert_eq!(kept.len(), 1);
         assert!((kept[0][0].y - 0.5).abs() < 1e-6 && (kept[0][1].y - 3.5).abs() < 1e-6);
     }
@@ -286,9 +318,9 @@ mod tests {
     fn distances_are_kept() {
         let square = area(&[(0., 0.), (0., 4.), (4., 4.), (4., 0.)]);
         let line = [coord! { x: 0., y: 2. }, coord! { x: 4., y: 2. }];
-        let kept = keep_apart(&line, &square, 1.0);
+        let kept = keep_apart(&line, &edges(&square), 1.0);
         assert_eq!(kept.len(), 1, "{kept:?}");
         assert!((kept[0][0].x - 1.0).abs() < 1e-6 && (kept[0][1].x - 3.0).abs() < 1e-6);
-        assert!(keep_apart(&line, &square, 2.5).is_empty());
+        assert!(keep_apart(&line, &edges(&square), 2.5).is_empty());
     }
 }

@@ -13,7 +13,7 @@ mod stroke;
 use geo_types::{Coord, LineString, Polygon};
 
 pub(crate) use boolean::{difference, intersection, union};
-pub(crate) use inset::{inset_lines, keep_apart, strip, Corner};
+pub(crate) use inset::{inset_lines, keep_apart, strip, Corner, Segment};
 pub(crate) use pole::{middle, pole};
 pub(crate) use sample::Sampler;
 pub(crate) use stroke::{circle, stroke};

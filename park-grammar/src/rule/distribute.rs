@@ -14,7 +14,8 @@
 //! times as the number before its colon says. Things face into the land;
 //! `facing` as in `Place`.
 //!
-//! The row ends where footprints would leave the region. A thing that meets what
+//! At its ends a row keeps as far from the other sides as from its own, or the
+//! spread of what it has if that is less; nowhere do footprints leave the region. A thing that meets what
 //! stands there already is left out, and counted.
 
 use geo_types::Coord;
@@ -24,7 +25,7 @@ use super::target::{is_closed, lines_at, Target};
 use super::Arguments;
 use crate::derive::{Node, Places, Run, Spot};
 use crate::error::Failure;
-use crate::plane::{cross, dist, dot, keep_apart, length, lerp, unit};
+use crate::plane::{cross, dist, dot, keep_apart, length, lerp, sides, unit, Segment};
 use crate::syntax::ast::{Branch, Head, Operation};
 
 /// A row turns at a corner by more than this, radians.
@@ -92,21 +93,31 @@ pub(crate) fn distribute(
     let facing = Facing::read(&mut arguments, &mut scope)?;
     arguments.done()?;
 
-    let lines = match target {
+    let region = &node.region;
+    let all: Vec<Segment> = region.area.rings().flat_map(|r| sides(r)).collect();
+    let rows: Vec<Vec<Coord<f64>>> = match target {
         Target::Boundary { selection, inset } => {
             let default = if inset > 0.0 { 0.0 } else { radius };
-            lines_at(&node.region, &selection, inset + offset.unwrap_or(default))
+            let offset = inset + offset.unwrap_or(default);
+            let lines = lines_at(region, &selection, offset);
+            // At its ends a row keeps as far from other sides as from its own.
+            let others = selection.not(region).lines(region);
+            let others = others.iter().flat_map(|line| line.windows(2));
+            let others: Vec<Segment> = others.map(|pair| (pair[0], pair[1])).collect();
+            let ends = offset.min(spread);
+            let inner = lines
+                .iter()
+                .flat_map(|line| keep_apart(line, &others, ends));
+            inner
+                .flat_map(|line| keep_apart(&line, &all, radius))
+                .collect()
         }
-        Target::Line(line) => vec![line],
+        Target::Line(line) => keep_apart(&line, &all, radius),
         Target::Area => {
             let failure = Failure::fault(operation.span, "a row runs along a line");
             return Err(failure.hint("Scatter fills an area"));
         }
     };
-    let rows: Vec<Vec<Coord<f64>>> = lines
-        .iter()
-        .flat_map(|line| keep_apart(line, &node.region.area, radius))
-        .collect();
     let before = run.tally();
     let whole: f64 = rows.iter().map(|row| length(row)).sum();
     if whole / spacing > MOST {
