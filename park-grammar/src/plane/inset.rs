@@ -57,7 +57,7 @@ pub(crate) fn strip(line: &[Coord<f64>], width: f64, corner: Corner) -> Vec<Area
         let turn = cross(u, v).atan2(dot(u, v));
         if turn > 1e-9 {
             areas.push(Area::new(
-                wedge(at, right(u), turn, width, corner),
+                wedge(at, [right(u), right(v)], turn, width, corner),
                 Vec::new(),
             ));
         }
@@ -65,10 +65,11 @@ pub(crate) fn strip(line: &[Coord<f64>], width: f64, corner: Corner) -> Vec<Area
     areas
 }
 
-/// The land beside a vertex between the ends of two quadrangles.
+/// The land beside a vertex between the ends of two quadrangles: with their
+/// corners to the last digit, so that no slit is left.
 fn wedge(
     at: Coord<f64>,
-    from: Coord<f64>,
+    [from, to]: [Coord<f64>; 2],
     turn: f64,
     width: f64,
     corner: Corner,
@@ -83,12 +84,13 @@ fn wedge(
         ring.extend([
             at + from * width,
             at + turned(0.5 * turn) * (width / half),
-            at + turned(turn) * width,
+            at + to * width,
         ]);
     } else {
         let pieces = (turn / ARC).ceil().max(1.0);
         let count = pieces as usize;
-        ring.extend((0..=count).map(|k| at + turned(turn * k as f64 / pieces) * width));
+        ring.extend((0..count).map(|k| at + turned(turn * k as f64 / pieces) * width));
+        ring.push(at + to * width);
     }
     ring
 }

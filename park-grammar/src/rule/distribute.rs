@@ -28,8 +28,9 @@ use crate::error::Failure;
 use crate::plane::{cross, dist, dot, keep_apart, length, lerp, sides, unit, Segment};
 use crate::syntax::ast::{Branch, Head, Operation};
 
-/// A row turns at a corner by more than this, radians.
-const BEND: f64 = std::f64::consts::PI / 6.0;
+/// A row turns at a corner by more than this, radians: 30 degrees, and a little
+/// lest the vertices of a polygon of twelve be corners by their rounding.
+const BEND: f64 = std::f64::consts::PI / 6.0 + 1e-6;
 
 /// Places this near are one, as a share of the spacing.
 const SAME: f64 = 1e-3;

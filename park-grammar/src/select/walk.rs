@@ -220,8 +220,28 @@ impl Selection {
 
 /// Where the walk of a ring begins, by arc length.
 fn start(region: &Region, ring: usize) -> f64 {
-    let corner = if ring == 0 { region.corner(0) } else { None };
-    let near = corner.unwrap_or_else(|| region.local.point(coord! { x: 0., y: 0. }));
+    let origin = region.local.point(coord! { x: 0., y: 0. });
+    // Of several lines that are side 0 the one that begins nearest to the origin.
+    let mirrored = region.local.mirrored();
+    let sides = if ring == 0 {
+        region.logical()
+    } else {
+        Vec::new()
+    };
+    let corners = sides
+        .iter()
+        .filter(|side| side.index == 0)
+        .filter_map(|side| {
+            let end = if mirrored {
+                side.line.last()
+            } else {
+                side.line.first()
+            };
+            end.copied()
+        });
+    let near = corners
+        .min_by(|&a, &b| dist(a, origin).total_cmp(&dist(b, origin)))
+        .unwrap_or(origin);
     let (mut best, mut found, mut along) = (f64::INFINITY, 0.0, 0.0);
     for (a, b, _) in region.edges(ring) {
         let away = dist(a, near);
