@@ -258,7 +258,7 @@ impl Run<'_> {
     }
 
     /// Counts an operation, and sees that there are not too many.
-    fn count(&mut self) -> Result<(), Failure> {
+    pub(crate) fn count(&mut self) -> Result<(), Failure> {
         let stopped = |error| Err(Failure::Stopped(error));
         self.operations += 1;
         if self.operations > self.options.operations {
@@ -562,7 +562,7 @@ impl Run<'_> {
         let taken = taken
             .into_iter()
             .any(|(at, radius)| !clear(&shape, at, radius))
-            || !intersection(&[shape.clone()], &node.standing.built).is_empty();
+            || !intersection(std::slice::from_ref(&shape), &node.standing.built).is_empty();
         if taken || (whole - shape.size()).abs() > 1e-6 * shape.size() || found.len() != 1 {
             return Err(Failure::unfit(span, "there is no room for this shape"));
         }

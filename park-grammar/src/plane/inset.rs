@@ -122,7 +122,7 @@ pub(crate) fn inset_lines(
         far >= chord - SAME * offset && far <= offset * (1.0 + SAME)
     };
     let mut found = Vec::new();
-    for rest in difference(&[area.clone()], &band) {
+    for rest in difference(std::slice::from_ref(area), &band) {
         for ring in rest.rings() {
             let on: Vec<bool> = sides(ring)
                 .map(|(a, b)| at_offset(a) && at_offset(b) && at_offset(lerp(a, b, 0.5)))

@@ -136,7 +136,11 @@ impl Plan {
         wanted.sort_by(|a, b| b.0.total_cmp(&a.0));
         let mut standing = Standing::default();
         let mut spots = Vec::new();
+        let mut missed = 0;
         for (radius, smallest) in wanted {
+            if missed == darts::MISSES {
+                break;
+            }
             let fits = |at: Coord<f64>, radius: f64| self.fits(&standing, free, at, radius);
             let mut found =
                 darts::one(chance, sampler, |at| fits(at, radius)).map(|at| (at, radius));
@@ -147,7 +151,9 @@ impl Plan {
                 let small = small.or_else(|| last().find(|&at| round == 0 && fits(at, smallest)));
                 found = small.map(|at| (at, smallest));
             }
+            missed += 1;
             if let Some((at, radius)) = found {
+                missed = 0;
                 standing.add(Disc {
                     at,
                     radius,

@@ -8,6 +8,9 @@ use crate::plane::Sampler;
 /// Darts thrown for one disc before it is given up.
 const TRIES: usize = 120;
 
+/// Discs given up one after the other before an area counts as full.
+pub(crate) const MISSES: usize = 30;
+
 /// Darts around each disc of a full pattern (Bridson 2007 has 30).
 const AROUND: usize = 24;
 

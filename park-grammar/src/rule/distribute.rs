@@ -98,7 +98,8 @@ pub(crate) fn distribute(
     let all: Vec<Segment> = region.area.rings().flat_map(|r| sides(r)).collect();
     let rows: Vec<Vec<Coord<f64>>> = match target {
         Target::Boundary { selection, inset } => {
-            let default = if inset > 0.0 { 0.0 } else { radius };
+            // A little more than the footprint needs, for the chords of arcs.
+            let default = if inset > 0.0 { 0.0 } else { 1.01 * radius };
             let offset = inset + offset.unwrap_or(default);
             let lines = lines_at(region, &selection, offset);
             // At its ends a row keeps as far from other sides as from its own.

@@ -7,7 +7,8 @@
 //! that crowns do not meet, and stay clear of what was put before. `margin` is
 //! kept between footprints and the boundary. With `POISSON` the region is filled
 //! as densely as the rooms allow (Poisson-disc sampling), or so many of such a
-//! pattern are chosen. What finds no room is left out, and counted.
+//! pattern are chosen. What finds no room is left out, and counted; after 30 in a row that
+//! find none the rest is.
 
 use geo_types::Coord;
 
@@ -92,13 +93,22 @@ pub(crate) fn scatter(
         }
         put(run, node, places, &kinds, &chosen, &mut chance)?;
     }
-    for _ in 0..count.filter(|_| !full).unwrap_or(0) {
+    let (mut left, mut missed) = (count.filter(|_| !full).unwrap_or(0), 0);
+    while left > 0 {
+        run.count()?;
+        left -= 1;
         let k = kinds.choose(&mut chance);
         let size = kinds.all[k].2;
         let Some(at) = darts::one(&mut chance, &sampler, |at| free(node, &own, size, at)) else {
             run.scene.skipped += 1;
+            missed += 1;
+            if missed == darts::MISSES {
+                run.scene.skipped += left;
+                break;
+            }
             continue;
         };
+        missed = 0;
         let radius = reach(size);
         own.add(Disc {
             at,

@@ -93,8 +93,14 @@ pub(crate) fn sweep(
                 difference(&far, &near)
             }
         };
-        let inside = intersection(&band, &[node.region.area.clone()]);
-        let mut found = difference(&inside, &taken);
+        let inside = intersection(&band, std::slice::from_ref(&node.region.area));
+        // Only what may be met: a region can hold thousands of things.
+        let met: Vec<Area> = taken
+            .iter()
+            .filter(|area| inside.iter().any(|part| boxes_meet(part, area)))
+            .cloned()
+            .collect();
+        let mut found = difference(&inside, &met);
         found.retain(|area| area.size() > LEAST);
         if found.is_empty() {
             run.scene.skipped += 1;
@@ -110,6 +116,11 @@ pub(crate) fn sweep(
         }
     }
     run.suited(operation, before)
+}
+
+fn boxes_meet(a: &Area, b: &Area) -> bool {
+    let ((low, high), (from, to)) = (a.extent(), b.extent());
+    from.x <= high.x && to.x >= low.x && from.y <= high.y && to.y >= low.y
 }
 
 fn profile(run: &Run<'_>, branch: &Branch, places: &Places) -> Result<Profile, Failure> {
