@@ -1,6 +1,6 @@
 //! The axes that directions are told by.
 
-use geo_types::{coord, Coord};
+use geo_types::Coord;
 
 use crate::plane::{dot, right, unit};
 use crate::shape::Region;
@@ -28,8 +28,8 @@ impl Frame {
     /// side.
     pub(crate) fn of(region: &Region) -> Self {
         let local = region.local;
-        let [west, east] = [0.0, 1.0].map(|x| local.point(coord! { x: x, y: 0.5 }));
-        let x = unit(east - west);
+        let [a, b, c, d] = local.corners;
+        let x = unit((d - a) + (c - b));
         if x == Coord::default() {
             return Self::COMPASS;
         }
@@ -76,6 +76,7 @@ pub(crate) fn apart(a: f64, b: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::plane::Area;
+    use geo_types::coord;
 
     #[test]
     fn mirrored_regions_have_mirrored_axes() {

@@ -6,7 +6,7 @@
 //! begins. Holes follow the outer ring, each from its vertex nearest to the
 //! local origin.
 
-use geo_types::{coord, Coord};
+use geo_types::Coord;
 
 use super::{part, perimeter, Selection, Stretch, LEAST};
 use crate::plane::{dist, lerp, nearest_on, right, unit};
@@ -220,7 +220,7 @@ impl Selection {
 
 /// Where the walk of a ring begins, by arc length.
 fn start(region: &Region, ring: usize) -> f64 {
-    let origin = region.local.point(coord! { x: 0., y: 0. });
+    let [origin, ..] = region.local.corners;
     // Of several lines that are side 0 the one that begins nearest to the origin.
     let mirrored = region.local.mirrored();
     let sides = if ring == 0 {
@@ -258,6 +258,7 @@ mod tests {
     use super::*;
     use crate::plane::Area;
     use crate::select::named;
+    use geo_types::coord;
 
     /// 4 wide, 2 high, its ring begun in the middle of the north.
     fn rectangle() -> Region {
