@@ -202,10 +202,14 @@ fn corners(region: &Region, frame: Frame, cardinal: Cardinal) -> Selection {
     } else {
         cuts[k]
     };
-    let to = from + steps[k];
+    let to = if frame.mirrored {
+        cuts[k]
+    } else {
+        cuts[(k + 1) % 4]
+    };
     let piece = |from: f64, to: f64| Stretch { ring: 0, from, to };
-    if to > whole {
-        Selection::new(vec![piece(from, whole), piece(0.0, to - whole)])
+    if to < from {
+        Selection::new(vec![piece(from, whole), piece(0.0, to)])
     } else {
         Selection::new(vec![piece(from, to)])
     }
@@ -223,6 +227,9 @@ fn cut(region: &Region, ring: &[Coord<f64>], away: impl Fn(&Coord<f64>) -> f64, 
             at.push(along);
         }
         along += dist(a, b);
+    }
+    if let [only] = at[..] {
+        return only;
     }
     // The shortest way that takes in all of them leaves out the widest gap.
     let gap = |k: usize| {

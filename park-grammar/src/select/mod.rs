@@ -176,12 +176,14 @@ pub(crate) fn perimeter(region: &Region, ring: usize) -> f64 {
 fn part(region: &Region, s: Stretch, whole: f64) -> Vec<Coord<f64>> {
     let mut line = Vec::new();
     let tiny = LEAST * whole;
+    // A stretch that reaches over a vertex by rounding has no edge there.
+    let least = tiny.min(0.25 * (s.to - s.from));
     let mut from = 0.0;
     for _ in 0..2 {
         for (a, b, _) in region.edges(s.ring) {
             let to = from + dist(a, b);
             let (low, high) = (s.from.max(from), s.to.min(to));
-            if high > low + tiny || (high > low && line.is_empty()) {
+            if high > low + least {
                 let at = |x: f64| lerp(a, b, (x - from) / (to - from));
                 if line.is_empty() {
                     line.push(if low <= from + tiny { a } else { at(low) });

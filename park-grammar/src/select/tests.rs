@@ -17,8 +17,17 @@ use crate::syntax::{parse, Sources};
 pub(super) fn region(points: &[(f64, f64)]) -> Region {
     let ring = points.iter().map(|&(x, y)| coord! { x: x, y: y }).collect();
     let mut region = Region::bare(Area::new(ring, Vec::new()));
-    crate::index::park(&mut region);
+    upright(&mut region);
     region
+}
+
+/// Numbers the sides of a park by the axes that it has.
+fn upright(region: &mut Region) {
+    crate::index::by_local(region);
+    for edge in region.edges.iter_mut().flatten() {
+        edge.origin.boundary = edge.side;
+        edge.origin.descent = edge.side;
+    }
 }
 
 /// 4 wide, 2 high.
@@ -105,7 +114,7 @@ fn mirrored(region: &Region) -> Region {
     // Local west is where the original had it.
     let flip = |p: Coord<f64>| coord! { x: -p.x, y: p.y };
     image.local.corners = region.local.corners.map(flip);
-    crate::index::park(&mut image);
+    upright(&mut image);
     image
 }
 
@@ -332,6 +341,36 @@ fn parameters_run_over_the_combined_length() {
         value(&shape, "Part(WEST, 3)"),
         Err(Failure::Fault(_))
     ));
+}
+
+/// A cut at a vertex missed it by rounding, and the line began with an edge of no
+/// length that had a corner of its own.
+#[test]
+fn sides_begin_at_their_vertex() {
+    for away in [0.0, 0.1, 438.186_349_999_566_23] {
+        let points = [
+            (9.30, 0.44),
+            (5.68, 26.85),
+            (-24.68, 38.45),
+            (-38.78, 10.54),
+            (-21.80, -3.90),
+            (-21.18, -32.84),
+            (-6.18, -10.31),
+        ];
+        let shape = region(&points.map(|(x, y)| (x, y + away)));
+        for name in ["WEST", "NORTH", "EAST", "SOUTH"] {
+            for line in select(&shape, name).lines(&shape) {
+                assert!(
+                    line.windows(2).all(|p| dist(p[0], p[1]) > 1.0),
+                    "{name} {line:?}"
+                );
+                assert!(
+                    line.iter().all(|p| shape.area.outer.contains(p)),
+                    "{name} {line:?}"
+                );
+            }
+        }
+    }
 }
 
 /// Star-shaped polygons of 4 to 12 vertices.
