@@ -460,7 +460,7 @@ impl Run<'_> {
                 .hint("divide first, and put things onto the parts in their own rules"));
         }
         let outputs = outputs(operation);
-        let centre = match outputs.get(2) {
+        let centre = match outputs.get(2).copied().flatten() {
             Some(branch) => self.leading_shape(node, &branch.body, places, 0)?,
             None => None,
         };
@@ -488,7 +488,7 @@ impl Run<'_> {
         })?;
         node.divided = true;
         for (k, output) in partition.outputs.into_iter().enumerate() {
-            let branch = outputs.get(k).copied();
+            let branch = outputs.get(k).copied().flatten();
             for region in output.regions {
                 let mut child = Node {
                     region,
@@ -676,25 +676,22 @@ impl Run<'_> {
 }
 
 /// The outputs that the blocks of an operation name: the branches of its only
-/// block, or one for each block.
-pub(crate) fn outputs(operation: &Operation) -> Vec<&Branch> {
+/// block, or one for each block; `None` for an empty one.
+pub(crate) fn outputs(operation: &Operation) -> Vec<Option<&Branch>> {
     match operation.blocks.as_slice() {
-        [only] => only.branches.iter().collect(),
-        blocks => blocks
-            .iter()
-            .flat_map(|block| block.branches.first())
-            .collect(),
+        [only] => only.branches.iter().map(Some).collect(),
+        blocks => blocks.iter().map(|block| block.branches.first()).collect(),
     }
 }
 
 impl Scene {
     fn moved(mut self, by: geo_types::Coord<f64>) -> Self {
+        let ring = |line: &mut geo_types::LineString<f64>| {
+            line.0.iter_mut().for_each(|c| *c = *c + by);
+        };
         let shift = |polygon: &mut Polygon<f64>| {
-            let ring = |line: &geo_types::LineString<f64>| line.0.iter().map(|&c| c + by).collect();
-            *polygon = Polygon::new(
-                ring(polygon.exterior()),
-                polygon.interiors().iter().map(ring).collect(),
-            );
+            polygon.exterior_mut(ring);
+            polygon.interiors_mut(|rings| rings.iter_mut().for_each(ring));
         };
         self.pieces.iter_mut().for_each(|p| shift(&mut p.polygon));
         self.volumes.iter_mut().for_each(|v| shift(&mut v.polygon));

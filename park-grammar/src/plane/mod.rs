@@ -5,17 +5,26 @@
 //! are open (the first vertex is not repeated).
 
 mod boolean;
+mod boxes;
+mod climb;
 mod inset;
 mod pole;
 mod sample;
+mod split;
 mod stroke;
 
 use geo_types::{Coord, LineString, Polygon};
 
 pub(crate) use boolean::{difference, intersection, union};
+pub(crate) use boxes::{
+    box_along, named_by, oriented_box, quad_angles, quad_area, quad_coordinates, quad_extent,
+    quad_is_convex, quad_point,
+};
+pub(crate) use climb::climb;
 pub(crate) use inset::{inset_lines, keep_apart, strip, Corner, Segment};
 pub(crate) use pole::{middle, pole};
 pub(crate) use sample::Sampler;
+pub(crate) use split::{clipped, split, Line};
 pub(crate) use stroke::{circle, stroke};
 
 /// The vertices of a closed line, the first not repeated.

@@ -5,6 +5,9 @@ mod circles;
 pub(crate) mod control;
 mod darts;
 mod distribute;
+mod fit;
+mod fit_rectangle;
+mod grid;
 pub(crate) mod place;
 pub(crate) mod points;
 pub(crate) mod primitive;
@@ -107,6 +110,8 @@ pub(crate) const OPERATORS: &[Operator] = &[
     operator("Square", Deed::Shape),
     operator("Rectangle", Deed::Shape),
     operator("Polygon", Deed::Shape),
+    operator("Grid", Deed::Divide(grid::grid)),
+    operator("FitRectangle", Deed::Divide(fit_rectangle::fit_rectangle)),
     operator("Place", Deed::Act(place::place)),
     operator("Scatter", Deed::Act(scatter::scatter)),
     operator("Distribute", Deed::Act(distribute::distribute)),
@@ -119,10 +124,54 @@ pub(crate) const OPERATORS: &[Operator] = &[
 ];
 
 /// Words that mean something as an argument of some operation: flags and modes.
-pub(crate) const WORDS: [&str; 27] = [
-    "CENTRE", "AREA", "POISSON", "MIDDLES", "EXACT", "THROUGH", "MITRE", "IN", "OUT", "ALONG",
-    "RANDOM", "LINE", "COMPASS", "LEAVE", "REST", "CORNERS", "ANGLE", "SECTOR", "GROW", "DOMINANT",
-    "NORTHERN", "SPLIT", "BASE", "FLANK", "SEGMENT", "SEAM", "ANY",
+pub(crate) const WORDS: &[&str] = &[
+    "CENTRE",
+    // Grid and FitRectangle.
+    "Exact",
+    "Apart",
+    "own",
+    "oriented",
+    "bounding",
+    "axis",
+    "inscribed",
+    "optimised",
+    "indexed",
+    "meeting",
+    "blend",
+    "centre",
+    "left",
+    "right",
+    "local",
+    "mirror",
+    "pair",
+    "extended",
+    // Placing and selectors.
+    "AREA",
+    "POISSON",
+    "MIDDLES",
+    "EXACT",
+    "THROUGH",
+    "MITRE",
+    "IN",
+    "OUT",
+    "ALONG",
+    "RANDOM",
+    "LINE",
+    "COMPASS",
+    "LEAVE",
+    "REST",
+    "CORNERS",
+    "ANGLE",
+    "SECTOR",
+    "GROW",
+    "DOMINANT",
+    "NORTHERN",
+    "SPLIT",
+    "BASE",
+    "FLANK",
+    "SEGMENT",
+    "SEAM",
+    "ANY",
 ];
 
 pub(crate) fn operator_named(name: &str) -> Option<&'static Operator> {

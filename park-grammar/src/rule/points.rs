@@ -99,7 +99,8 @@ pub(crate) fn spots(region: &Region, value: Value, span: Span) -> Result<Vec<Spo
     };
     Ok(match value {
         Value::Word(word) if word == "CENTRE" => vec![spot(middle(&region.area))],
-        Value::Point(at) => vec![spot(region.local.point(at))],
+        // Nothing is drawn where a cell has no such coordinates.
+        Value::Point(at) => region.local.point(at).into_iter().map(spot).collect(),
         Value::Spots(spots) => spots,
         Value::Selection(selection) => share_of(region, &selection, 0.5).into_iter().collect(),
         Value::List(items) => {

@@ -17,30 +17,49 @@ pub(crate) struct Heritage<'r> {
     /// The rule, for the marks of what is new.
     rule: &'r str,
     near: f64,
+    /// The region's edges with their directions, ring by ring.
+    edges: Vec<Source<'r>>,
+}
+
+/// An edge of the region.
+struct Source<'r> {
+    ends: [Coord<f64>; 2],
+    along: Coord<f64>,
+    edge: &'r Edge,
 }
 
 impl<'r> Heritage<'r> {
     pub(crate) fn new(region: &'r Region, rule: &'r str) -> Self {
         let (low, high) = region.area.extent();
+        let edges = (0..region.rings()).flat_map(|ring| region.edges(ring));
+        let source = |(p, q, edge): (Coord<f64>, Coord<f64>, &'r Edge)| Source {
+            ends: [p, q],
+            along: unit(q - p),
+            edge,
+        };
         Self {
             region,
             rule,
             near: NEAR * (high.x - low.x).max(high.y - low.y),
+            edges: edges.map(source).collect(),
         }
     }
 
     /// The region's edge on which the segment lies.
     pub(crate) fn source(&self, a: Coord<f64>, b: Coord<f64>) -> Option<&'r Edge> {
         let middle = lerp(a, b, 0.5);
-        let on = |(p, q, _): &(Coord<f64>, Coord<f64>, &Edge)| {
-            let near = |x| dist(nearest_on(*p, *q, x), x) <= self.near;
+        let on = |source: &&Source<'_>| {
+            let [p, q] = source.ends;
+            // Most edges lie far from the line of the other.
+            if cross(source.along, middle - p).abs() > self.near {
+                return false;
+            }
+            let near = |x| dist(nearest_on(p, q, x), x) <= self.near;
             // A short segment across the end of an edge is near it too.
-            let along = cross(unit(b - a), unit(*q - *p)).abs() < 0.5 || dist(a, b) < self.near;
-            near(middle) && near(a) && near(b) && along
+            let along = || cross(unit(b - a), source.along).abs() < 0.5 || dist(a, b) < self.near;
+            near(middle) && near(a) && near(b) && along()
         };
-        let rings = 0..self.region.rings();
-        let edges = rings.flat_map(|ring| self.region.edges(ring));
-        edges.into_iter().find(on).map(|(_, _, edge)| edge)
+        self.edges.iter().find(on).map(|source| source.edge)
     }
 
     /// A mark of this rule.
@@ -89,15 +108,15 @@ impl<'r> Heritage<'r> {
     /// parallel to, on the same side of the land.
     fn facing(&self, a: Coord<f64>, b: Coord<f64>) -> Option<usize> {
         let (middle, along) = (lerp(a, b, 0.5), unit(b - a));
-        let edges = self.region.edges(0);
-        let parallel = edges.filter(|(p, q, _)| dot(unit(*q - *p), along) > 0.7);
+        let outer = &self.edges[..self.region.edges[0].len()];
+        let parallel = outer.iter().filter(|s| dot(s.along, along) > 0.7);
+        let away = |source: &Source<'_>| {
+            let off = nearest_on(source.ends[0], source.ends[1], middle) - middle;
+            dot(off, off)
+        };
         parallel
-            .min_by(|x, y| {
-                let away = |e: &(Coord<f64>, Coord<f64>, &Edge)| {
-                    dist(nearest_on(e.0, e.1, middle), middle)
-                };
-                away(x).total_cmp(&away(y))
-            })
-            .and_then(|(_, _, edge)| edge.origin.descent)
+            .map(|source| (away(source), source.edge))
+            .min_by(|x, y| x.0.total_cmp(&y.0))
+            .and_then(|(_, edge)| edge.origin.descent)
     }
 }

@@ -8,7 +8,7 @@ mod logical;
 use geo_types::{Coord, Polygon};
 
 pub(crate) use inherit::Heritage;
-pub use local::{Cell, Local};
+pub use local::{Cell, Local, Reach};
 pub(crate) use logical::Side;
 
 use crate::plane::{Area, Ring};
