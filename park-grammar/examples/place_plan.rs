@@ -12,8 +12,8 @@ const RULES: &str = r##"grammar 1
 param Oak = Object(radius = 0.5, spread = 4 m, height = 14 m, colour = "#7d8f3f")
 
 Region -> Lawn
-    Place(CENTRE) { Circle(6) Paving Fountain Distribute(ALL: 1.2, 4) { Bench } }
-    ScatterCircles(4 {[3-5]}, gap = 4, margin = 5) { FlowerBed Distribute(ALL: 0.6, 1.2) { Flowers } Place(CENTRE) { Statue } }
+    Place(CENTRE) { Circle(6) Paving Fountain Distribute(ALL: 1.2, 4) { Bench } } else { Place(CENTRE) { Tree } }
+    ScatterCircles(4 {[3-5]}, gap = 4, margin = 5, least = 0) { FlowerBed Distribute(ALL: 0.6, 1.2) { Flowers } Place(CENTRE) { Statue } }
     Sweep(Part(WEST or SOUTH, [0.05, 0.95]): 0.5) { Hedge }
     Distribute(NORTH: 3, 8) { 2: TallTree | SmallTree }
     Distribute(EAST: 3, 6, MIDDLES) { Conifer }

@@ -395,3 +395,10 @@ fn hopeless_scattering_ends() {
     let park = derive("Region -> Place(ScatterCircles(100000 {[9, 10]})) { Lamp }");
     assert!(park.objects.len() < 20);
 }
+
+#[test]
+fn selections_that_double_are_stopped() {
+    let rules = "Region -> R(WEST)\nR(s) -> R(s or s)";
+    let error = on(&rectangle(), rules).expect_err("endless");
+    assert!(matches!(error, ParkError::Limit { .. }) || error.to_string().contains("without end"));
+}

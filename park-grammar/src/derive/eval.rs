@@ -1,5 +1,6 @@
 //! Expressions, evaluated for a region.
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -8,7 +9,7 @@ use geo_types::Coord;
 use super::object::{declared, OBJECT};
 use super::random::Stream;
 use super::value::{Late, Number, SizeRange, Sizing, Value};
-use crate::error::Failure;
+use crate::error::{Failure, ParkError};
 use crate::grammar::Grammar;
 use crate::rule::points;
 use crate::select::{named, Selection};
@@ -23,6 +24,10 @@ pub(crate) type Places = BTreeMap<String, Value>;
 /// Deepest calls of functions within each other.
 const DEEPEST: usize = 64;
 
+/// Most expressions evaluated in a derivation: selections that are passed on from
+/// rule to rule are evaluated anew for each region, and may double each time.
+const STEPS: usize = 5_000_000;
+
 /// What an expression is evaluated for.
 pub(crate) struct Scope<'s> {
     pub(crate) grammar: &'s Grammar,
@@ -31,6 +36,8 @@ pub(crate) struct Scope<'s> {
     pub(crate) region: &'s Region,
     pub(crate) chance: &'s mut Stream,
     pub(crate) depth: usize,
+    /// Expressions evaluated so far in the derivation.
+    pub(crate) steps: &'s Cell<usize>,
 }
 
 type Found = Result<Value, Failure>;
@@ -38,6 +45,12 @@ type Found = Result<Value, Failure>;
 impl Scope<'_> {
     pub(crate) fn value(&mut self, expr: &Expr) -> Found {
         let span = expr.span;
+        self.steps.set(self.steps.get() + 1);
+        if self.steps.get() > STEPS {
+            return Err(Failure::Stopped(ParkError::Limit {
+                what: format!("it came to {STEPS} values"),
+            }));
+        }
         Ok(match &expr.kind {
             ExprKind::Number(value, unit) => Value::Number(Number {
                 value: *value,
@@ -137,6 +150,7 @@ impl Scope<'_> {
             region: self.region,
             chance: self.chance,
             depth: self.depth + 1,
+            steps: self.steps,
         })
     }
 

@@ -146,6 +146,7 @@ impl Grammar {
             options,
             began: Instant::now(),
             operations: 0,
+            steps: std::cell::Cell::new(0),
             watch,
         };
         let mut node = Node {
@@ -196,6 +197,7 @@ pub(crate) struct Run<'g> {
     options: &'g DeriveOptions,
     began: Instant,
     operations: usize,
+    steps: std::cell::Cell<usize>,
     watch: &'g mut dyn FnMut(usize) -> bool,
 }
 
@@ -254,6 +256,7 @@ impl Run<'_> {
             region: &node.region,
             chance: &mut node.chance,
             depth: 0,
+            steps: &self.steps,
         }
     }
 

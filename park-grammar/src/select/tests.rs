@@ -77,6 +77,7 @@ fn value(region: &Region, text: &str) -> Result<Value, Failure> {
         region,
         chance: &mut Stream::new(0),
         depth: 0,
+        steps: &std::cell::Cell::new(0),
     };
     scope.value(&expr(text))
 }
@@ -333,6 +334,16 @@ fn parameters_run_over_the_combined_length() {
         Ok(Value::Inset(selection, inset)) => assert_eq!((selection.length(), inset), (2.0, 0.5)),
         other => panic!("{other:?}"),
     }
+    // As the notes write it: the second value of Contract is what is divided.
+    let text = "Parametrise([0, 1], [0, 1], [0, 0.15], 0) { Contract(1, NORTH or EAST) }";
+    match value(&shape, text) {
+        Ok(Value::Inset(selection, inset)) => {
+            assert!((selection.length() - 4.3).abs() < 1e-9 && inset == 1.0);
+        }
+        other => panic!("{other:?}"),
+    }
+    let text = "Parametrise([0, 1]) { Grid(2, 2) }";
+    assert!(matches!(value(&shape, text), Err(Failure::Fault(_))));
     match value(&shape, "Length(WEST or EAST)") {
         Ok(Value::Number(number)) => assert_eq!(number.metres(), Some(4.0)),
         other => panic!("{other:?}"),
