@@ -185,7 +185,7 @@ proptest! {
     fn grids_tile_any_region(
         outline in outline(),
         arguments in arguments(),
-        paths in prop_oneof![Just("{}"), Just("{ Paving }"), Just("{ Paving } { Circle(3) Sand }"), Just("{} { Romb(4) Sand }")],
+        paths in prop_oneof![Just("{}"), Just("{ Paving }"), Just("{ Paving } { Circle(3) Sand }"), Just("{} { Romb(4) Sand }"), Just("{ Paving } { Deck }")],
         points in vec((-80.0..80.0_f64, -80.0..80.0_f64), 30),
         seed in 0..1000_u64,
     ) {
@@ -323,13 +323,15 @@ proptest! {
     ) {
         let rules = format!("Region -> Grid({arguments}) {{ Meadow }} {{ Paving }}");
         let motion = Motion { angle: 0.0, mirror: false, by: Coord { x: by.0.round(), y: by.1.round() } };
+        let searched = ["optimised", "inscribed", "blend", "axis"].iter().any(|fit| arguments.contains(fit));
         let here = park(&outline, &rules, 7);
         let there = park(&motion.polygon(&outline), &rules, 7);
         match (here, there) {
-            // A search for the best box ends within its own tolerance.
-            (Ok(here), Ok(there)) if !arguments.contains("optimised") && !arguments.contains("inscribed") && !arguments.contains("blend") && !arguments.contains("axis") => {
+            (Ok(here), Ok(there)) if !searched => {
                 is_image(&here, &there, motion, 1e-5)?;
             }
+            // A search for the best box ends within its own tolerance.
+            _ if searched => {}
             (here, there) => prop_assert_eq!(here.is_err(), there.is_err()),
         }
     }
@@ -345,13 +347,12 @@ proptest! {
         treatment in prop_oneof![
             Just(""), Just(", middle = centre"), Just(", symmetry = mirror"), Just(", symmetry = pair"), Just(", symmetry = extended"),
         ],
-        rule in 0..5_usize,
+        rule in 0..4_usize,
     ) {
         let cell = match rule {
             0 => format!("Place(({}, {})) {{ Bush }}", at.0, at.1),
             1 => format!("Case {{ metric_x > 0 and outer > 1: Sand | metric_y == 1: Soil | else: Meadow }} Place(({}, 0.5)) {{ Tree }} Place((1.4, {})) {{ Lamp }}", at.0, at.1),
             2 => "Grid(2, 3 {1, 2, 1}, width = 1) { Meadow } { Paving } { Romb(2) Sand }".to_owned(),
-            3 if columns % 2 == 0 && rows % 2 == 0 => "FitRectangle() { Meadow Place(CENTRE) { Tree } | Sand }".to_owned(),
             // In even grids whatever is inside is mirrored with the cell; in odd
             // ones a middle cell is its own mirror image, and what a rule makes
             // there must be so too.

@@ -111,3 +111,41 @@ fn a_curve_between_corners_is_one_side() {
     let north = region.logical().into_iter().filter(|s| s.index == 1);
     assert_eq!(north.map(|s| s.edges.len()).collect::<Vec<_>>(), [20]);
 }
+
+/// Groups of cardinal directions of a mirrored shape are the mirrored groups, west
+/// and east changing places; of any shape, with edges at 45 degrees among them.
+#[test]
+fn groups_are_mirrored() {
+    let mut chance = crate::derive::Stream::new(5);
+    for round in 0..300 {
+        // On a grid of whole numbers many edges run at 45 degrees exactly.
+        let points: Vec<Coord<f64>> = (0..16)
+            .map(|k| {
+                let angle = -(f64::from(k) + 0.9 * chance.unit()) / 16.0 * std::f64::consts::TAU;
+                let radius = chance.between([8.0, 20.0]);
+                let (x, y) = (radius * angle.cos(), radius * angle.sin());
+                if round % 2 == 0 {
+                    coord! { x: x.round(), y: y.round() }
+                } else {
+                    coord! { x: x, y: y }
+                }
+            })
+            .collect();
+        let lengths = |mirror: bool| {
+            let flip = |p: &Coord<f64>| coord! { x: if mirror { -p.x } else { p.x }, y: p.y };
+            let mut ring: Ring = points.iter().map(flip).collect();
+            ring.dedup();
+            let mut region = Region::bare(Area::new(ring, Vec::new()));
+            by_local(&mut region);
+            let mut lengths = [0.0; 4];
+            for (a, b, edge) in region.edges(0) {
+                lengths[edge.side.expect("has a side")] += crate::plane::dist(a, b);
+            }
+            lengths
+        };
+        let ([a, b, c, d], found) = (lengths(false), lengths(true));
+        for (x, y) in [c, b, a, d].into_iter().zip(found) {
+            assert!((x - y).abs() < 1e-9, "{points:?}");
+        }
+    }
+}

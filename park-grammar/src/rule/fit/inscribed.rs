@@ -4,7 +4,8 @@
 //! empty rectangle (the histogram method), and the best few of what was found are
 //! polished: moved, turned and stretched with the rectangle's own extent along x
 //! as far as the edges beside it allow. The measure of that is exact, so that the
-//! result lies inside whatever the raster was.
+//! result lies inside whatever the raster was. It is a search: which of two
+//! rectangles of nearly one size it ends at may depend on rounding.
 
 use geo_types::Coord;
 
@@ -88,7 +89,13 @@ fn directions(area: &Area) -> Vec<f64> {
     let even = (0..EVEN).map(|k| k as f64 * quarter / EVEN as f64);
     let of_edges = edges.iter().map(|(a, b)| {
         let d = *b - *a;
-        d.y.atan2(d.x).rem_euclid(quarter)
+        let angle = d.y.atan2(d.x).rem_euclid(quarter);
+        // A quarter less by rounding is none.
+        if quarter - angle < SAME * SAME {
+            0.0
+        } else {
+            angle
+        }
     });
     for angle in of_edges.take(4 * EDGES) {
         if found.len() < EDGES && found.iter().all(|a| (a - angle).abs() > SAME) {

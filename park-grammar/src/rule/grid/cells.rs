@@ -28,6 +28,23 @@ pub(super) struct Lattice {
     size: f64,
 }
 
+/// What a centre is.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Centre {
+    /// A shape in the middle of a crossing.
+    Shape(Primitive),
+    /// What both paths cover.
+    Crossing,
+}
+
+/// Where a line between columns meets one between rows.
+#[derive(Debug)]
+struct Crossing<'l> {
+    at: Coord<f64>,
+    column: &'l Line,
+    row: &'l Line,
+}
+
 /// A cell, or one of the parts that a region of any shape leaves of it.
 #[derive(Debug)]
 pub(super) struct Piece {
@@ -91,61 +108,57 @@ impl Lattice {
         (within, rest)
     }
 
-    /// The shape at each crossing inside the areas, as far as it lies inside.
-    pub(super) fn centres(&self, inside: &[Area], shape: Primitive) -> Vec<Area> {
-        let radius = shape.radius();
-        let mut found: Vec<(Coord<f64>, Area)> = Vec::new();
-        for at in self.crossings() {
-            let Some(land) = inside.iter().find(|area| area.contains(at)) else {
-                continue;
-            };
-            let mut parts = vec![self.placed(shape, at)];
-            if land.nearest(at).1 < radius * (1.0 + 1e-9) {
-                parts = intersection(&parts, std::slice::from_ref(land));
-            }
-            // Sorted along x, so that what is too far ends the search.
-            let before: Vec<Area> = found
-                .iter()
-                .rev()
-                .take_while(|(p, _)| at.x - p.x < 2.0 * radius)
-                .filter(|(p, _)| dist(*p, at) < 2.0 * radius)
-                .map(|(_, area)| area.clone())
-                .collect();
-            if !before.is_empty() {
-                parts = difference(&parts, &before);
-            }
-            found.extend(parts.into_iter().map(|area| (at, area)));
-        }
-        found.into_iter().map(|(_, area)| area).collect()
+    /// A centre at each crossing inside the areas; whole ones, which may go on
+    /// beyond and overlap.
+    pub(super) fn whole_centres(&self, inside: &[Area], centre: Centre) -> Vec<Area> {
+        let within = |c: &Crossing<'_>| inside.iter().any(|area| area.contains(c.at));
+        let crossings = self.crossings().into_iter().filter(within);
+        crossings.filter_map(|c| self.placed(centre, &c)).collect()
     }
 
     /// Where lines cross, from west to east of the map.
-    fn crossings(&self) -> Vec<Coord<f64>> {
-        let of = |column: &Line| -> Vec<Coord<f64>> {
-            let rows = self.lines[1].iter();
-            rows.filter_map(|row| column.meets(row)).collect()
-        };
-        let mut found: Vec<_> = self.lines[0].iter().flat_map(of).collect();
-        found.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
+    fn crossings(&self) -> Vec<Crossing<'_>> {
+        let mut found = Vec::new();
+        for column in &self.lines[0] {
+            for row in &self.lines[1] {
+                let met = column.meets(row);
+                found.extend(met.map(|at| Crossing { at, column, row }));
+            }
+        }
+        found.sort_by(|p, q| p.at.x.total_cmp(&q.at.x).then(p.at.y.total_cmp(&q.at.y)));
         found
     }
 
-    /// A shape whose upright is that of the grid, mirrored with it.
-    fn placed(&self, shape: Primitive, at: Coord<f64>) -> Area {
+    /// A centre at a crossing; a shape has its upright where the grid has, and is
+    /// mirrored with it.
+    fn placed(&self, centre: Centre, crossing: &Crossing<'_>) -> Option<Area> {
+        let shape = match centre {
+            Centre::Shape(shape) => shape,
+            Centre::Crossing => {
+                let beside = |line: &Line, sign: f64| line.moved(sign * self.half);
+                let mut corners = Vec::with_capacity(4);
+                for (x, y) in [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)] {
+                    let row = beside(crossing.row, y);
+                    corners.push(beside(crossing.column, x).meets(&row)?);
+                }
+                let area = Area::new(corners, Vec::new());
+                return (self.half > 0.0).then_some(area);
+            }
+        };
         let local = Local::new(self.quad);
         let [along, _] = local.axes();
         let sign = if local.mirrored() { 1.0 } else { -1.0 };
         let up = crate::plane::right(along) * sign;
         let upright = shape.ring(Coord::default(), 0.0);
-        let ring = upright.iter().map(|p| at + along * p.x + up * p.y);
-        Area::new(ring.collect(), Vec::new())
+        let ring = upright.iter().map(|p| crossing.at + along * p.x + up * p.y);
+        Some(Area::new(ring.collect(), Vec::new()))
     }
 
     /// All that paths do not cover: cells and centres that go on beyond the areas
     /// and overlap each other. Cells as the areas' edges and centres cut them have
     /// those edges up to rounding, which would leave paths as thin as a hair along
     /// them.
-    pub(super) fn beside(&self, inside: &[Area], shape: Option<Primitive>) -> Vec<Area> {
+    pub(super) fn beside(&self, inside: &[Area], centres: &[Area]) -> Vec<Area> {
         let points: Vec<Coord<f64>> = inside
             .iter()
             .flat_map(|a| a.outer.iter().copied())
@@ -163,11 +176,7 @@ impl Lattice {
             .into_iter()
             .map(|piece| piece.area)
             .collect();
-        if let Some(shape) = shape {
-            let crossings = self.crossings().into_iter();
-            let within = crossings.filter(|&at| inside.iter().any(|area| area.contains(at)));
-            found.extend(within.map(|at| self.placed(shape, at)));
-        }
+        found.extend_from_slice(centres);
         found
     }
 
@@ -333,12 +342,39 @@ fn strips(areas: Vec<Area>, lines: &[Line], half: f64) -> Vec<Vec<Area>> {
     found
 }
 
-/// What centres leave of cells.
+/// Whole centres as far as they lie inside the areas and in none before.
+pub(super) fn clipped_centres(whole: &[Area], inside: &[Area]) -> Vec<Area> {
+    let mut found = Vec::with_capacity(whole.len());
+    let all = Centres::new(whole);
+    for area in whole {
+        let middle = area.centroid();
+        let far = area.outer.iter().map(|&p| dist(p, middle));
+        let radius = far.fold(0.0, f64::max);
+        let clear = |land: &Area| land.contains(middle) && land.nearest(middle).1 > radius;
+        let mut parts = vec![area.clone()];
+        if !inside.iter().any(clear) {
+            parts = intersection(&parts, inside);
+        }
+        let before: Vec<Area> = all
+            .near(area)
+            .take_while(|other| !std::ptr::eq(*other, area))
+            .cloned()
+            .collect();
+        if !before.is_empty() {
+            parts = difference(&parts, &before);
+        }
+        found.extend(parts);
+    }
+    found
+}
+
+/// What whole centres leave of cells. Centres that end with the region would leave
+/// hairs along its edge.
 pub(super) fn without(cells: Vec<Piece>, centres: &[Area]) -> Vec<Piece> {
     let centres = Centres::new(centres);
     let mut found = Vec::with_capacity(cells.len());
     for Piece { area, cell } in cells {
-        let near = centres.near(&area);
+        let near: Vec<Area> = centres.near(&area).cloned().collect();
         if near.is_empty() {
             found.push(Piece { area, cell });
         } else {
@@ -373,20 +409,16 @@ impl<'c> Centres<'c> {
         }
     }
 
-    /// Those whose extents meet that of an area.
-    fn near(&self, area: &Area) -> Vec<Area> {
-        if self.sorted.is_empty() {
-            return Vec::new();
-        }
+    /// Those whose extents meet that of an area, in one order for all areas.
+    fn near<'a>(&'a self, area: &Area) -> impl Iterator<Item = &'c Area> + 'a {
         let (low, high) = area.extent();
         let first = self
             .sorted
             .partition_point(|(from, _, _)| from.x < low.x - self.widest);
         self.sorted[first..]
             .iter()
-            .take_while(|(from, _, _)| from.x < high.x)
-            .filter(|(from, to, _)| to.x > low.x && from.y < high.y && to.y > low.y)
-            .map(|(_, _, area)| (*area).clone())
-            .collect()
+            .take_while(move |(from, _, _)| from.x < high.x)
+            .filter(move |(from, to, _)| to.x > low.x && from.y < high.y && to.y > low.y)
+            .map(|(_, _, area)| *area)
     }
 }

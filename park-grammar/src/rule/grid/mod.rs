@@ -24,8 +24,9 @@
 //! difference of the region and all else, so that nothing is lost.
 //!
 //! A centre is the shape that the third block begins with, at each crossing of
-//! lines inside the region, as far as it lies in the region. Without a shape
-//! crossings are part of the paths.
+//! lines inside the region, as far as it lies in the region. If that block begins
+//! with something else, the centre is what both paths cover; without the block, or
+//! where it is empty, crossings are part of the paths.
 //!
 //! How cells that are mirror images stand to each other is the matter of
 //! [`symmetry`].
@@ -51,7 +52,7 @@ use crate::plane::{
 };
 use crate::shape::{Heritage, Local, Region, Role};
 
-use cells::Lattice;
+use cells::{Centre, Lattice};
 use sizes::{Cut, Dimension, Laying};
 use symmetry::Symmetry;
 
@@ -112,16 +113,24 @@ pub(crate) fn grid(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     } else {
         (fitted.inside, Vec::new())
     };
-    let centres = ask
-        .centre
-        .map_or_else(Vec::new, |shape| lattice.centres(&inside, shape));
+    let named = crate::derive::outputs(ask.operation)
+        .get(2)
+        .copied()
+        .flatten();
+    let centre = match (ask.centre, named) {
+        (Some(shape), _) => Some(Centre::Shape(shape)),
+        (None, Some(branch)) if !branch.body.operations.is_empty() => Some(Centre::Crossing),
+        (None, _) => None,
+    };
+    let whole = centre.map_or_else(Vec::new, |c| lattice.whole_centres(&inside, c));
+    let centres = cells::clipped_centres(&whole, &inside);
     let cells = lattice.cells(&inside);
     let paths = if width > 0.0 {
-        difference(&inside, &lattice.beside(&inside, ask.centre))
+        difference(&inside, &lattice.beside(&inside, &whole))
     } else {
         Vec::new()
     };
-    let mut cells = cells::without(cells, &centres);
+    let mut cells = cells::without(cells, &whole);
     let least = SLIVER * region.area.size();
     cells.retain(|cell| cell.area.size() > least);
     if cells.is_empty() {
@@ -132,7 +141,7 @@ pub(crate) fn grid(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let heritage = Heritage::new(region, "Grid");
     let regions = cells
         .into_iter()
-        .map(|cell| lattice.region(&heritage, cell, &centres, &symmetry))
+        .map(|cell| lattice.region(&heritage, cell, &whole, &symmetry))
         .collect();
     let [along, up] = Local::new(lattice.quad).axes();
     let plain = |areas: Vec<Area>, role: Role| -> Vec<Region> {

@@ -150,7 +150,7 @@ impl Dimension {
             exact,
             apart,
         } = laying;
-        let drawn = self.drawn(extent, width, size, chance);
+        let drawn = self.drawn(extent, laying, chance);
         if drawn.len() > MOST {
             return Err(format!("{} cells in a row are too many", drawn.len()));
         }
@@ -212,7 +212,10 @@ impl Dimension {
     }
 
     /// A length for each cell, or none where nothing is said.
-    fn drawn(&self, extent: f64, width: f64, size: f64, chance: &mut Stream) -> Vec<Option<f64>> {
+    fn drawn(&self, extent: f64, laying: &Laying, chance: &mut Stream) -> Vec<Option<f64>> {
+        let &Laying {
+            width, size, exact, ..
+        } = laying;
         let mut next = |k: usize| {
             let length = self.entry(k).and_then(|s| s.length);
             length.map(|bounds| chance.between(bounds))
@@ -233,8 +236,14 @@ impl Dimension {
         while lengths.len() <= MOST {
             let length = next(lengths.len());
             end += length.unwrap_or(size);
-            // A last cell that sticks out by less than half is squeezed in.
-            if !lengths.is_empty() && end - extent > 0.5 * length.unwrap_or(size) {
+            // A last cell that sticks out by less than half is squeezed in, unless
+            // sizes are to stay as they are.
+            let most = if exact {
+                0.0
+            } else {
+                0.5 * length.unwrap_or(size)
+            };
+            if !lengths.is_empty() && end - extent > most {
                 break;
             }
             lengths.push(length);
@@ -298,6 +307,8 @@ mod tests {
         // Out of 21 by 1 only.
         assert_eq!(places(&dimension, 21.0, 2.0, false).len(), 3);
         assert_eq!(places(&Dimension::default(), 16.0, 2.0, false), [5.0, 11.0]);
+        // As they are, no more than there is room for.
+        assert_eq!(places(&dimension, 21.0, 2.0, true).len(), 2);
     }
 
     #[test]
