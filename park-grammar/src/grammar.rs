@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use crate::derive::{mesh_file, OBJECT};
 use crate::error::ParkError;
+use crate::mesh::Mesh;
 use crate::rule;
 use crate::syntax::ast::{
     Argument, Block, Body, Expr, ExprKind, File, Head, ItemKind, Meaning, Name, Operation, Size,
@@ -50,6 +52,8 @@ pub struct Grammar {
     functions: BTreeMap<String, Function>,
     /// In the order in which they are evaluated.
     params: Vec<(Name, Expr)>,
+    /// By the names of their files.
+    meshes: BTreeMap<String, Mesh>,
 }
 
 /// Gives the text of an included file, by the name that stands in `include`.
@@ -101,6 +105,7 @@ impl Grammar {
                 rules: BTreeMap::new(),
                 functions: BTreeMap::new(),
                 params: Vec::new(),
+                meshes: BTreeMap::new(),
             },
             found: Vec::new(),
         };
@@ -138,6 +143,10 @@ impl Grammar {
         &self.params
     }
 
+    pub(crate) fn mesh(&self, file: &str) -> Option<&Mesh> {
+        self.meshes.get(file)
+    }
+
     pub(crate) fn rule(&self, name: &str) -> Option<&Rule> {
         self.rules.get(name)
     }
@@ -173,6 +182,9 @@ impl Draft {
                     {
                         let before = old.0.clone();
                         self.twice(&name, &before);
+                    }
+                    if let Some(file) = mesh_file(&value) {
+                        self.mesh(&file, load);
                     }
                     self.grammar.params.push((name, value));
                 }
@@ -234,6 +246,21 @@ impl Draft {
             }
             Err(what) => {
                 let error = Diagnostic::new(text.span, format!("{} cannot be included", text.text));
+                self.found.push(error.hint(what));
+            }
+        }
+    }
+
+    /// Reads the mesh of an object.
+    fn mesh(&mut self, file: &Text, load: &Loader<'_>) {
+        let read =
+            load(&file.text).and_then(|text| Mesh::from_obj(&text).map_err(|e| e.to_string()));
+        match read {
+            Ok(mesh) => {
+                self.grammar.meshes.insert(file.text.clone(), mesh);
+            }
+            Err(what) => {
+                let error = Diagnostic::new(file.span, format!("{} is no mesh", file.text));
                 self.found.push(error.hint(what));
             }
         }
@@ -330,6 +357,7 @@ impl Check<'_> {
                 let mut known: Vec<&str> = rule::names().collect();
                 known.extend(self.grammar.functions.keys().map(String::as_str));
                 known.extend(crate::select::CALLS);
+                known.push(OBJECT);
                 if !known.contains(&name.text.as_str()) {
                     let error = Diagnostic::new(
                         name.span,

@@ -5,6 +5,7 @@ mod error;
 mod grammar;
 mod index;
 pub mod library;
+pub mod mesh;
 mod plane;
 mod rule;
 pub mod scene;

@@ -2,6 +2,8 @@
 
 use geo_types::{Coord, Polygon};
 
+use crate::mesh::Mesh;
+
 /// What a piece of ground is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -35,12 +37,37 @@ pub struct Object {
     pub name: String,
     /// Where its middle stands.
     pub at: Coord<f64>,
-    /// Radius of its footprint, metres.
+    /// Radius of its footprint, metres; footprints do not overlap, and lie on the
+    /// ground that they were put on.
     pub radius: f64,
+    /// How far it reaches above the ground, metres: a crown.
+    pub spread: f64,
     /// How high it is, metres.
     pub height: f64,
     /// Which way it faces, radians counter-clockwise from east.
     pub facing: f64,
+    /// What it was put on: a fountain may be put on a path, no tree comes to
+    /// stand on one by chance.
+    pub ground: Ground,
+}
+
+/// A kind of object that the grammar brought with it.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Kind {
+    /// Its name, that of the parameter.
+    pub name: String,
+    /// Radius of its footprint, metres.
+    pub radius: f64,
+    /// How far it reaches above the ground, metres.
+    pub spread: f64,
+    /// How high it is, metres.
+    pub height: f64,
+    /// The colour of its picture, `#rrggbb`.
+    pub colour: String,
+    /// Its shape, if there is a file of it; one for all objects of this kind,
+    /// each turned about its upright axis.
+    pub mesh: Option<Mesh>,
 }
 
 /// Something with an outline that rises from the ground: a hedge, a wall.
@@ -65,4 +92,8 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// Hedges, walls and the like.
     pub volumes: Vec<Volume>,
+    /// The grammar's own kinds among the things.
+    pub kinds: Vec<Kind>,
+    /// How many things had no room where a rule would have put them.
+    pub skipped: usize,
 }

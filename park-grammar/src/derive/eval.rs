@@ -1,18 +1,21 @@
 //! Expressions, evaluated for a region.
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use geo_types::Coord;
 
+use super::object::{declared, OBJECT};
 use super::random::Stream;
-use super::value::{Number, SizeRange, Sizing, Value};
-use crate::error::Failure;
+use super::value::{Late, Number, SizeRange, Sizing, Value};
+use crate::error::{Failure, ParkError};
 use crate::grammar::Grammar;
 use crate::rule::points;
 use crate::select::{named, Selection};
 use crate::shape::Region;
 use crate::syntax::ast::{
-    Argument, BinaryOp, Expr, ExprKind, Meaning, Name, Size, Span, UnaryOp, Unit,
+    Argument, BinaryOp, Block, Expr, ExprKind, Meaning, Name, Size, Span, UnaryOp, Unit,
 };
 
 /// Values of the places of a rule or function.
@@ -20,6 +23,10 @@ pub(crate) type Places = BTreeMap<String, Value>;
 
 /// Deepest calls of functions within each other.
 const DEEPEST: usize = 64;
+
+/// Most expressions evaluated in a derivation: selections that are passed on from
+/// rule to rule are evaluated anew for each region, and may double each time.
+const STEPS: usize = 5_000_000;
 
 /// What an expression is evaluated for.
 pub(crate) struct Scope<'s> {
@@ -29,6 +36,8 @@ pub(crate) struct Scope<'s> {
     pub(crate) region: &'s Region,
     pub(crate) chance: &'s mut Stream,
     pub(crate) depth: usize,
+    /// Expressions evaluated so far in the derivation.
+    pub(crate) steps: &'s Cell<usize>,
 }
 
 type Found = Result<Value, Failure>;
@@ -36,6 +45,12 @@ type Found = Result<Value, Failure>;
 impl Scope<'_> {
     pub(crate) fn value(&mut self, expr: &Expr) -> Found {
         let span = expr.span;
+        self.steps.set(self.steps.get() + 1);
+        if self.steps.get() > STEPS {
+            return Err(Failure::Stopped(ParkError::Limit {
+                what: format!("it came to {STEPS} values"),
+            }));
+        }
         Ok(match &expr.kind {
             ExprKind::Number(value, unit) => Value::Number(Number {
                 value: *value,
@@ -44,8 +59,10 @@ impl Scope<'_> {
             ExprKind::Text(text) => Value::Text(text.clone()),
             ExprKind::Name(name) => return self.name(name, span),
             ExprKind::Call {
-                name, arguments, ..
-            } => return self.call(name, arguments),
+                name,
+                arguments,
+                blocks,
+            } => return self.call(name, arguments, blocks),
             ExprKind::List(items) => {
                 let items: Result<Vec<Value>, Failure> =
                     items.iter().map(|item| self.value(item)).collect();
@@ -79,7 +96,12 @@ impl Scope<'_> {
 
     fn name(&mut self, name: &str, span: Span) -> Found {
         if let Some(value) = self.places.get(name).or_else(|| self.params.get(name)) {
-            return Ok(value.clone());
+            return match value.clone() {
+                Value::Late(late) => {
+                    self.within(span, &late.places, |scope| scope.value(&late.expr))
+                }
+                value => Ok(value),
+            };
         }
         if let Some(selection) = named::named(self.region, name) {
             return Ok(Value::Selection(selection));
@@ -88,35 +110,48 @@ impl Scope<'_> {
             return Ok(value);
         }
         // A rule that gives places, such as CentrePoint -> ScatterCircles(1 {15}).
-        if let Some(spots) = points::of_rule(self, name, span)? {
-            return Ok(Value::Spots(spots));
+        if let Some(value) = points::of_rule(self, name, span)? {
+            return Ok(value);
         }
         Ok(Value::Word(name.to_owned()))
     }
 
-    fn call(&mut self, name: &Name, arguments: &[Argument]) -> Found {
+    fn call(&mut self, name: &Name, arguments: &[Argument], blocks: &[Block]) -> Found {
         if let Some(function) = self.grammar.function(&name.text) {
             let places = self.bind(name.span, &function.places, arguments)?;
-            if self.depth >= DEEPEST {
-                return Err(Failure::fault(
-                    name.span,
-                    "functions call each other without end",
-                ));
-            }
-            let mut inner = Scope {
-                grammar: self.grammar,
-                params: self.params,
-                places: &places,
-                region: self.region,
-                chance: self.chance,
-                depth: self.depth + 1,
-            };
-            return match &function.meaning {
+            return self.within(name.span, &places, |inner| match &function.meaning {
                 Meaning::Value(value) => inner.value(value),
-                Meaning::Body(body) => points::of_body(&mut inner, body, name.span),
-            };
+                Meaning::Body(body) => points::of_body(inner, body, name.span),
+            });
         }
-        crate::select::call(self, name, arguments)
+        if name.text == OBJECT {
+            return declared(self, name, arguments);
+        }
+        crate::select::call(self, name, arguments, blocks)
+    }
+
+    /// Evaluates among other values.
+    fn within(
+        &mut self,
+        span: Span,
+        places: &Places,
+        inner: impl FnOnce(&mut Scope<'_>) -> Found,
+    ) -> Found {
+        if self.depth >= DEEPEST {
+            return Err(Failure::fault(
+                span,
+                "functions call each other without end",
+            ));
+        }
+        inner(&mut Scope {
+            grammar: self.grammar,
+            params: self.params,
+            places,
+            region: self.region,
+            chance: self.chance,
+            depth: self.depth + 1,
+            steps: self.steps,
+        })
     }
 
     /// The values of arguments for the places of a rule or function.
@@ -134,13 +169,33 @@ impl Scope<'_> {
         let mut bound = Places::new();
         for (place, argument) in places.iter().zip(arguments) {
             let place = argument.name.as_ref().unwrap_or(place);
-            bound.insert(place.text.clone(), self.value(&argument.value)?);
+            let value = self.lasting(&argument.value)?;
+            bound.insert(place.text.clone(), value);
         }
         if let Some(place) = places.iter().find(|p| !bound.contains_key(&p.text)) {
             let error = format!("the place {} has no value", place.text);
             return Err(Failure::fault(span, error));
         }
         Ok(bound)
+    }
+
+    /// A value that may be used on other regions: what belongs to this one is
+    /// evaluated anew for each.
+    pub(crate) fn lasting(&mut self, expr: &Expr) -> Found {
+        let value = self.value(expr)?;
+        if !value.is_local() {
+            return Ok(value);
+        }
+        if let ExprKind::Name(name) = &expr.kind {
+            let known = self.places.get(name).or_else(|| self.params.get(name));
+            if let Some(late @ Value::Late(_)) = known {
+                return Ok(late.clone());
+            }
+        }
+        Ok(Value::Late(Arc::new(Late {
+            expr: expr.clone(),
+            places: self.places.clone(),
+        })))
     }
 
     fn index(&mut self, base: &Expr, items: &[Expr], span: Span) -> Found {
@@ -336,6 +391,19 @@ impl Scope<'_> {
     pub(crate) fn selection(&mut self, expr: &Expr) -> Result<Selection, Failure> {
         match self.value(expr)? {
             Value::Selection(selection) => Ok(selection),
+            // Several, as `Grow` gives for several directions.
+            Value::List(items) if !items.is_empty() => {
+                let mut all = Selection::default();
+                for item in items {
+                    match item {
+                        Value::Selection(one) => all = all.or(&one),
+                        other => {
+                            return Err(other.wrong(expr.span, "a selection of the boundary"));
+                        }
+                    }
+                }
+                Ok(all)
+            }
             other => Err(other.wrong(expr.span, "a selection of the boundary")),
         }
     }

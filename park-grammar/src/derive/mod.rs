@@ -5,8 +5,11 @@
 //! operations of its blocks; or cuts a shape out of it; or puts things on it. A
 //! region that nothing divides is left as a piece of ground.
 
+mod content;
 mod eval;
+mod object;
 mod random;
+mod standing;
 mod value;
 
 use std::collections::BTreeMap;
@@ -14,17 +17,20 @@ use std::time::{Duration, Instant};
 
 use geo_types::Polygon;
 
+pub(crate) use content::Size;
 pub(crate) use eval::{Places, Scope, ATTRIBUTES};
+pub(crate) use object::{mesh_file, OBJECT};
 pub(crate) use random::Stream;
+pub(crate) use standing::{clear, inside, Disc, Standing};
 pub(crate) use value::{Number, SizeRange, Sizing, Spot, Value};
 
 use crate::error::{Failure, ParkError};
 use crate::grammar::Grammar;
 use crate::index;
 use crate::library;
-use crate::plane::{difference, intersection, Area};
+use crate::plane::{difference, intersection, middle, Area};
 use crate::rule::{self, control, operator_named, Ask, Deed, Partition, Primitive};
-use crate::scene::{Ground, Object, Piece, Scene};
+use crate::scene::{Ground, Piece, Scene};
 use crate::shape::{Heritage, Region, Role};
 use crate::syntax::ast::{Body, Branch, ExprKind, Operation, Span};
 
@@ -74,7 +80,9 @@ pub(crate) struct Node {
     pub(crate) rule: String,
     pub(crate) chance: Stream,
     /// What has been cut out of it.
-    carved: Vec<Area>,
+    pub(crate) carved: Vec<Area>,
+    /// What stands on it.
+    pub(crate) standing: Standing,
     /// Whether other regions have taken its place.
     divided: bool,
     /// Whether its first shape has been cut already: the centre of a crossing.
@@ -138,6 +146,7 @@ impl Grammar {
             options,
             began: Instant::now(),
             operations: 0,
+            steps: std::cell::Cell::new(0),
             watch,
         };
         let mut node = Node {
@@ -147,6 +156,7 @@ impl Grammar {
             rule: self.start().to_owned(),
             chance: Stream::new(options.seed),
             carved: Vec::new(),
+            standing: Standing::default(),
             divided: false,
             shaped: false,
             level: 0,
@@ -187,6 +197,7 @@ pub(crate) struct Run<'g> {
     options: &'g DeriveOptions,
     began: Instant,
     operations: usize,
+    steps: std::cell::Cell<usize>,
     watch: &'g mut dyn FnMut(usize) -> bool,
 }
 
@@ -195,6 +206,8 @@ struct Before {
     pieces: usize,
     objects: usize,
     volumes: usize,
+    kinds: usize,
+    skipped: usize,
 }
 
 impl Run<'_> {
@@ -214,10 +227,13 @@ impl Run<'_> {
             }));
         }
         for (name, expr) in self.grammar.param_values() {
-            let value = match self.options.params.get(&name.text) {
+            let mut value = match self.options.params.get(&name.text) {
                 Some(&value) => Value::Number(Number::plain(value)),
-                None => self.scope(node, &Places::new()).value(expr)?,
+                None => self.scope(node, &Places::new()).lasting(expr)?,
             };
+            if let Value::Kind(kind) = &mut value {
+                std::sync::Arc::make_mut(kind).name.clone_from(&name.text);
+            }
             self.params.insert(name.text.clone(), value);
         }
         Ok(())
@@ -240,11 +256,12 @@ impl Run<'_> {
             region: &node.region,
             chance: &mut node.chance,
             depth: 0,
+            steps: &self.steps,
         }
     }
 
     /// Counts an operation, and sees that there are not too many.
-    fn count(&mut self) -> Result<(), Failure> {
+    pub(crate) fn count(&mut self) -> Result<(), Failure> {
         let stopped = |error| Err(Failure::Stopped(error));
         self.operations += 1;
         if self.operations > self.options.operations {
@@ -283,7 +300,7 @@ impl Run<'_> {
             if shape {
                 let primitive = Primitive::read(operation, &mut self.scope(node, places))?;
                 let spot = Spot {
-                    at: node.region.area.centroid(),
+                    at: middle(&node.region.area),
                     radius: 0.0,
                     facing: 0.0,
                 };
@@ -315,13 +332,19 @@ impl Run<'_> {
             pieces: self.scene.pieces.len(),
             objects: self.scene.objects.len(),
             volumes: self.scene.volumes.len(),
+            kinds: self.scene.kinds.len(),
+            skipped: self.scene.skipped,
         };
         let (material, carved) = (node.material.clone(), node.carved.len());
+        let standing = node.standing.clone();
         match self.operation(node, operation, places) {
             Err(Failure::Unfit(_)) => {
                 self.scene.pieces.truncate(before.pieces);
                 self.scene.objects.truncate(before.objects);
                 self.scene.volumes.truncate(before.volumes);
+                self.scene.kinds.truncate(before.kinds);
+                self.scene.skipped = before.skipped;
+                node.standing = standing;
                 node.material = material;
                 node.carved.truncate(carved);
                 node.divided = false;
@@ -376,11 +399,7 @@ impl Run<'_> {
                         None => Ok(()),
                     }
                 }
-                Deed::Points => Err(Failure::fault(
-                    span,
-                    format!("{name} gives places and does nothing"),
-                )
-                .hint("use it as the argument of another operation")),
+                Deed::Points => rule::points::act(self, node, operation, places),
                 // Taken care of by `body`.
                 Deed::Shape => Ok(()),
             };
@@ -390,14 +409,16 @@ impl Run<'_> {
             return Ok(());
         }
         let spot = Spot {
-            at: node.region.area.centroid(),
+            at: middle(&node.region.area),
             radius: 0.0,
             facing: 0.0,
         };
-        self.thing(operation, spot)
+        let before = self.tally();
+        self.thing(node, operation, places, spot)?;
+        self.suited(operation, before)
     }
 
-    fn bound(
+    pub(crate) fn bound(
         &mut self,
         node: &mut Node,
         operation: &Operation,
@@ -436,7 +457,7 @@ impl Run<'_> {
         places: &Places,
         divide: fn(&mut Ask<'_, '_>) -> Result<Partition, Failure>,
     ) -> Result<(), Failure> {
-        if node.divided || !node.carved.is_empty() {
+        if node.divided || !node.carved.is_empty() || !node.standing.is_empty() {
             let error = "this region has been divided already";
             return Err(Failure::fault(operation.span, error)
                 .hint("divide first, and put things onto the parts in their own rules"));
@@ -479,6 +500,7 @@ impl Run<'_> {
                     rule: node.rule.clone(),
                     chance: node.chance.child(),
                     carved: Vec::new(),
+                    standing: Standing::default(),
                     divided: false,
                     shaped: k == 2 && centre.is_some(),
                     level: node.level,
@@ -521,7 +543,7 @@ impl Run<'_> {
     }
 
     /// Cuts a shape out of a region, and does the rest on what was cut out.
-    fn carve(
+    pub(crate) fn carve(
         &mut self,
         node: &mut Node,
         span: Span,
@@ -538,7 +560,13 @@ impl Run<'_> {
         let free = difference(&[node.region.area.clone()], &node.carved);
         let mut found = intersection(&[shape.clone()], &free);
         let whole: f64 = found.iter().map(Area::size).sum();
-        if (whole - shape.size()).abs() > 1e-6 * shape.size() || found.len() != 1 {
+        let taken = node.standing.discs().iter();
+        let taken = taken.map(|disc| (disc.at, disc.radius));
+        let taken = taken
+            .into_iter()
+            .any(|(at, radius)| !clear(&shape, at, radius))
+            || !intersection(std::slice::from_ref(&shape), &node.standing.built).is_empty();
+        if taken || (whole - shape.size()).abs() > 1e-6 * shape.size() || found.len() != 1 {
             return Err(Failure::unfit(span, "there is no room for this shape"));
         }
         let Some(area) = found.pop() else {
@@ -556,6 +584,7 @@ impl Run<'_> {
             rule: node.rule.clone(),
             chance: node.chance.child(),
             carved: Vec::new(),
+            standing: Standing::default(),
             divided: false,
             shaped: false,
             level: node.level,
@@ -581,7 +610,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    fn at_spot(
+    pub(crate) fn at_spot(
         &mut self,
         node: &mut Node,
         body: &[Operation],
@@ -616,28 +645,9 @@ impl Run<'_> {
                     return Err(Failure::fault(operation.span, error)
                         .hint("begin with a shape, such as Circle(1)"));
                 }
-                None => self.thing(operation, spot)?,
+                None => self.thing(node, operation, places, spot)?,
             }
         }
-        Ok(())
-    }
-
-    /// A thing at a place.
-    fn thing(&mut self, operation: &Operation, spot: Spot) -> Result<(), Failure> {
-        let name = operation.name.text.as_str();
-        let Some(thing) = library::thing_named(name) else {
-            return Err(Failure::fault(
-                operation.span,
-                format!("{name} is nothing that can stand here"),
-            ));
-        };
-        self.scene.objects.push(Object {
-            name: thing.name.to_owned(),
-            at: spot.at,
-            radius: thing.radius,
-            height: thing.height,
-            facing: spot.facing,
-        });
         Ok(())
     }
 
@@ -653,6 +663,9 @@ impl Run<'_> {
         };
         let walked = library::material_named(&node.material).is_some_and(|m| m.path);
         let ground = if walked { Ground::Path } else { node.ground };
+        for &k in &node.standing.objects {
+            self.scene.objects[k].ground = ground;
+        }
         for area in left {
             self.scene.pieces.push(Piece {
                 polygon: area.to_polygon(),

@@ -1,10 +1,14 @@
 //! What expressions come to.
 
+use std::sync::Arc;
+
 use geo_types::Coord;
 
+use super::eval::Places;
 use crate::error::Failure;
+use crate::scene::Kind;
 use crate::select::Selection;
-use crate::syntax::ast::{Span, Unit};
+use crate::syntax::ast::{Expr, Span, Unit};
 
 /// A number with its unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,6 +60,20 @@ pub(crate) enum Value {
     List(Vec<Value>),
     /// Whole numbers from the first to the last.
     Span([i64; 2]),
+    /// A selection that has been drawn in from the boundary so many metres.
+    Inset(Selection, f64),
+    /// An object of the grammar's own.
+    Kind(Arc<Kind>),
+    /// What is evaluated for the region where it is used: a selection as the
+    /// value of a parameter or of a place.
+    Late(Arc<Late>),
+}
+
+/// An expression with the values that it was written among.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Late {
+    pub(crate) expr: Expr,
+    pub(crate) places: Places,
 }
 
 impl Number {
@@ -120,6 +138,18 @@ impl Value {
             Self::Sizing(_) => "sizes",
             Self::List(_) => "a list",
             Self::Span(_) => "a span of whole numbers",
+            Self::Inset(..) => "lines at a distance from the boundary",
+            Self::Kind(_) => "an object",
+            Self::Late(_) => "a selection",
+        }
+    }
+
+    /// Whether it belongs to one region.
+    pub(crate) fn is_local(&self) -> bool {
+        match self {
+            Self::Selection(_) | Self::Inset(..) | Self::Spots(_) => true,
+            Self::List(items) => items.iter().any(Self::is_local),
+            _ => false,
         }
     }
 

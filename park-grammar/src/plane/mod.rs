@@ -7,6 +7,9 @@
 mod boolean;
 mod boxes;
 mod climb;
+mod inset;
+mod pole;
+mod sample;
 mod split;
 mod stroke;
 
@@ -18,6 +21,9 @@ pub(crate) use boxes::{
     quad_is_convex, quad_point,
 };
 pub(crate) use climb::climb;
+pub(crate) use inset::{inset_lines, keep_apart, strip, Corner, Segment};
+pub(crate) use pole::{middle, pole};
+pub(crate) use sample::Sampler;
 pub(crate) use split::{clipped, split, Line};
 pub(crate) use stroke::{circle, stroke};
 

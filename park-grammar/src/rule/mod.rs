@@ -1,13 +1,19 @@
 //! The operations: one file a rule.
 
 mod arguments;
+mod circles;
 pub(crate) mod control;
+mod darts;
+mod distribute;
 mod fit;
 mod fit_rectangle;
 mod grid;
 pub(crate) mod place;
 pub(crate) mod points;
 pub(crate) mod primitive;
+mod scatter;
+mod sweep;
+mod target;
 
 use crate::derive::{Node, Places, Run, Scope};
 use crate::error::Failure;
@@ -107,8 +113,14 @@ pub(crate) const OPERATORS: &[Operator] = &[
     operator("Grid", Deed::Divide(grid::grid)),
     operator("FitRectangle", Deed::Divide(fit_rectangle::fit_rectangle)),
     operator("Place", Deed::Act(place::place)),
+    operator("Scatter", Deed::Act(scatter::scatter)),
+    operator("Distribute", Deed::Act(distribute::distribute)),
+    operator("DistributeSmooth", Deed::Act(sweep::sweep)),
+    operator("Sweep", Deed::Act(sweep::sweep)),
     operator("ScatterCircles", Deed::Points),
     operator("Corners", Deed::Points),
+    operator("Along", Deed::Points),
+    operator("Parametrise", Deed::Points),
 ];
 
 /// Words that mean something as an argument of some operation: flags and modes.
@@ -133,6 +145,33 @@ pub(crate) const WORDS: &[&str] = &[
     "mirror",
     "pair",
     "extended",
+    // Placing and selectors.
+    "AREA",
+    "POISSON",
+    "MIDDLES",
+    "EXACT",
+    "THROUGH",
+    "MITRE",
+    "IN",
+    "OUT",
+    "ALONG",
+    "RANDOM",
+    "LINE",
+    "COMPASS",
+    "LEAVE",
+    "REST",
+    "CORNERS",
+    "ANGLE",
+    "SECTOR",
+    "GROW",
+    "DOMINANT",
+    "NORTHERN",
+    "SPLIT",
+    "BASE",
+    "FLANK",
+    "SEGMENT",
+    "SEAM",
+    "ANY",
 ];
 
 pub(crate) fn operator_named(name: &str) -> Option<&'static Operator> {
@@ -146,4 +185,5 @@ pub(crate) fn names() -> impl Iterator<Item = &'static str> {
     operators
         .chain(materials)
         .chain(library::THINGS.iter().map(|t| t.name))
+        .chain(library::BARRIERS.iter().map(|b| b.name))
 }

@@ -1,11 +1,33 @@
 //! Selections: parts of a region's boundary.
+//!
+//! A selector goes by what edges are and where they came from, never by their
+//! numbers in a ring, so that it means the same after every rule: it is
+//! evaluated for the region at hand. Directions and parameters are those of the
+//! region's own axes, mirrored where the region is.
 
+mod angle;
+mod call;
+mod cardinal;
+mod continuous;
+mod frame;
+mod grow;
+mod history;
 pub(crate) mod named;
+mod near;
+mod part;
+mod sector;
+mod walk;
 
 use geo_types::Coord;
 
 use crate::plane::{dist, lerp};
 use crate::shape::{Edge, Region};
+
+pub(crate) use call::{call, index, range, CALLS};
+pub(crate) use frame::Frame;
+pub(crate) use named::NAMES;
+pub(crate) use part::parametrise;
+pub(crate) use walk::Lines;
 
 /// Shorter spans are rounding, as a share of the ring.
 const LEAST: f64 = 1e-9;
@@ -53,12 +75,24 @@ impl Selection {
         region: &Region,
         wanted: impl Fn(Coord<f64>, Coord<f64>, &Edge) -> bool,
     ) -> Self {
+        Self::those(region, |_, _, (a, b, edge)| wanted(a, b, edge))
+    }
+
+    /// The physical edges, by ring and place in it, for which `wanted` holds.
+    pub(crate) fn numbered(region: &Region, wanted: impl Fn(usize, usize) -> bool) -> Self {
+        Self::those(region, |ring, k, _| wanted(ring, k))
+    }
+
+    fn those(
+        region: &Region,
+        wanted: impl Fn(usize, usize, (Coord<f64>, Coord<f64>, &Edge)) -> bool,
+    ) -> Self {
         let mut stretches = Vec::new();
         for ring in 0..region.rings() {
             let mut from = 0.0;
-            for (a, b, edge) in region.edges(ring) {
+            for (k, (a, b, edge)) in region.edges(ring).enumerate() {
                 let to = from + dist(a, b);
-                if wanted(a, b, edge) {
+                if wanted(ring, k, (a, b, edge)) {
                     stretches.push(Stretch { ring, from, to });
                 }
                 from = to;
@@ -126,23 +160,7 @@ impl Selection {
         let mut lines = Vec::new();
         for ring in 0..region.rings() {
             let whole = perimeter(region, ring);
-            let mut here: Vec<Stretch> = self
-                .stretches
-                .iter()
-                .filter(|s| s.ring == ring)
-                .copied()
-                .collect();
-            // What ends where the ring begins goes on there.
-            let (first, last) = (here.first().copied(), here.last().copied());
-            if let (Some(first), Some(last)) = (first, last) {
-                let tiny = LEAST * whole;
-                if here.len() > 1 && first.from <= tiny && last.to >= whole - tiny {
-                    here.remove(0);
-                    if let Some(last) = here.last_mut() {
-                        last.to += first.to;
-                    }
-                }
-            }
+            let here = self.runs(ring, whole);
             lines.extend(here.into_iter().map(|s| part(region, s, whole)));
         }
         lines
@@ -158,12 +176,14 @@ pub(crate) fn perimeter(region: &Region, ring: usize) -> f64 {
 fn part(region: &Region, s: Stretch, whole: f64) -> Vec<Coord<f64>> {
     let mut line = Vec::new();
     let tiny = LEAST * whole;
+    // A stretch that reaches over a vertex by rounding has no edge there.
+    let least = tiny.min(0.25 * (s.to - s.from));
     let mut from = 0.0;
     for _ in 0..2 {
         for (a, b, _) in region.edges(s.ring) {
             let to = from + dist(a, b);
             let (low, high) = (s.from.max(from), s.to.min(to));
-            if high > low + tiny || (high > low && line.is_empty()) {
+            if high > low + least {
                 let at = |x: f64| lerp(a, b, (x - from) / (to - from));
                 if line.is_empty() {
                     line.push(if low <= from + tiny { a } else { at(low) });
@@ -176,38 +196,5 @@ fn part(region: &Region, s: Stretch, whole: f64) -> Vec<Coord<f64>> {
     line
 }
 
-use crate::derive::{Scope, Value};
-use crate::error::Failure;
-use crate::syntax::ast::{Argument, Expr, Name, Span};
-
-/// Selectors by name, for hints.
-pub(crate) const NAMES: [&str; 7] = [
-    "ALL",
-    "Perimeter",
-    "OUTER",
-    "OUTER_EDGE",
-    "BOUNDARY",
-    "INNER",
-    "EDGE",
-];
-
-/// Selectors that take values, for hints.
-pub(crate) const CALLS: [&str; 0] = [];
-
-/// A selector with values, such as `Part(OUTER, [0, 0.5])`.
-pub(crate) fn call(_: &mut Scope<'_>, name: &Name, _: &[Argument]) -> Result<Value, Failure> {
-    Err(Failure::fault(
-        name.span,
-        format!("{} has no value", name.text),
-    ))
-}
-
-/// A selection with indices.
-pub(crate) fn index(
-    _: &mut Scope<'_>,
-    of: Value,
-    _: &[Expr],
-    span: Span,
-) -> Result<Value, Failure> {
-    Err(of.wrong(span, "something that has entries"))
-}
+#[cfg(test)]
+mod tests;
