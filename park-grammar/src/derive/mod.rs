@@ -13,6 +13,7 @@ mod standing;
 mod value;
 
 use std::collections::BTreeMap;
+use std::slice::from_ref;
 use std::time::{Duration, Instant};
 
 use geo_types::Polygon;
@@ -32,7 +33,7 @@ use crate::plane::{difference, intersection, middle, Area};
 use crate::rule::{self, control, operator_named, Ask, Deed, Partition, Primitive};
 use crate::scene::{Ground, Piece, Scene};
 use crate::shape::{Heritage, Region, Role};
-use crate::syntax::ast::{Body, Branch, ExprKind, Operation, Span};
+use crate::syntax::ast::{Body, Branch, Operation, Span};
 
 /// How a park is derived.
 #[derive(Clone, Debug, PartialEq)]
@@ -348,10 +349,10 @@ impl Run<'_> {
                 node.material = material;
                 node.carved.truncate(carved);
                 node.divided = false;
-                let branches = otherwise.branches.iter();
-                branches
-                    .map(|branch| self.body(node, &branch.body.operations, places))
-                    .collect()
+                for branch in &otherwise.branches {
+                    self.body(node, &branch.body.operations, places)?;
+                }
+                Ok(())
             }
             other => other,
         }
@@ -487,7 +488,6 @@ impl Run<'_> {
             scope: self.scope(node, places),
             path_width,
             centre,
-            outputs: outputs.len(),
         })?;
         node.divided = true;
         for (k, output) in partition.outputs.into_iter().enumerate() {
@@ -557,8 +557,8 @@ impl Run<'_> {
         }
         let ring = primitive.ring(spot.at, spot.facing);
         let shape = Area::new(ring, Vec::new());
-        let free = difference(&[node.region.area.clone()], &node.carved);
-        let mut found = intersection(&[shape.clone()], &free);
+        let free = difference(from_ref(&node.region.area), &node.carved);
+        let mut found = intersection(from_ref(&shape), &free);
         let whole: f64 = found.iter().map(Area::size).sum();
         let taken = node.standing.discs().iter();
         let taken = taken.map(|disc| (disc.at, disc.radius));
@@ -659,7 +659,7 @@ impl Run<'_> {
         let left = if node.carved.is_empty() {
             vec![node.region.area.clone()]
         } else {
-            difference(&[node.region.area.clone()], &node.carved)
+            difference(from_ref(&node.region.area), &node.carved)
         };
         let walked = library::material_named(&node.material).is_some_and(|m| m.path);
         let ground = if walked { Ground::Path } else { node.ground };

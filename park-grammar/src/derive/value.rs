@@ -112,16 +112,6 @@ impl Number {
             _ => Some(self.metres()? / whole),
         }
     }
-
-    /// As a length where a bare number up to 1 is a share of `whole`: the notes'
-    /// "absolute (metres) or relative (0..1)".
-    pub(crate) fn extent(self, whole: f64) -> Option<f64> {
-        match self.unit {
-            Unit::Percent => Some(0.01 * self.value * whole),
-            Unit::None if (0.0..=1.0).contains(&self.value) => Some(self.value * whole),
-            _ => self.metres(),
-        }
-    }
 }
 
 impl Value {

@@ -36,8 +36,6 @@ pub(crate) struct Ask<'a, 's> {
     pub(crate) path_width: f64,
     /// The shape of centres, if the grammar gives one.
     pub(crate) centre: Option<Primitive>,
-    /// How many outputs the grammar names.
-    pub(crate) outputs: usize,
 }
 
 /// One of the outputs of a partition, in the order of the blocks.

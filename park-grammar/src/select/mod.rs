@@ -101,10 +101,6 @@ impl Selection {
         Self::new(stretches)
     }
 
-    pub(crate) fn is_empty(&self) -> bool {
-        self.stretches.is_empty()
-    }
-
     pub(crate) fn stretches(&self) -> &[Stretch] {
         &self.stretches
     }

@@ -183,9 +183,13 @@ fn ties_at_45_degrees() {
         }
     }
     assert_eq!(length(&shape, "Cardinal(WEST, DOMINANT)"), 2.828427125);
-    assert!(select(&shape, "Cardinal(NORTH, DOMINANT)").is_empty());
+    assert!(select(&shape, "Cardinal(NORTH, DOMINANT)")
+        .stretches()
+        .is_empty());
     assert_eq!(middle(&shape, "Cardinal(NORTH, NORTHERN)"), (0., 0.5));
-    assert!(select(&shape, "Cardinal(EAST, NORTHERN)").is_empty());
+    assert!(select(&shape, "Cardinal(EAST, NORTHERN)")
+        .stretches()
+        .is_empty());
     // A kite, whose east is the vertex nearest to two corners.
     let kite = region(&[(-1., 0.), (0., 1.), (3., 0.), (0., -1.)]);
     assert_eq!(middle(&kite, "WEST").1, 0.0);
@@ -250,7 +254,7 @@ fn boundaries_and_corners() {
     assert_eq!(length(&shape, "OUTER"), 6.0);
     assert_eq!(length(&shape, "INCIDENT"), 6.0);
     shape.edges[0][0].origin.boundary = Some(1);
-    assert!(select(&shape, "INCIDENT").is_empty());
+    assert!(select(&shape, "INCIDENT").stretches().is_empty());
     assert_eq!(length(&shape, "not OUTER"), 6.0);
     assert_eq!(length(&shape, "EDGE[-1]"), 4.0);
     assert_eq!(length(&shape, "EDGE[0..2]"), 8.0);

@@ -3,7 +3,6 @@
 use geo_types::Coord;
 
 use super::Region;
-use crate::plane::{dist, lerp};
 
 /// A side of a region, as a line walked clockwise.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,24 +56,5 @@ impl Region {
         } else {
             side.line.first().copied()
         }
-    }
-}
-
-impl Side {
-    pub(crate) fn length(&self) -> f64 {
-        crate::plane::length(&self.line)
-    }
-
-    /// The point so far along, metres.
-    pub(crate) fn at(&self, along: f64) -> Coord<f64> {
-        let mut rest = along.max(0.0);
-        for pair in self.line.windows(2) {
-            let step = dist(pair[0], pair[1]);
-            if rest <= step && step > 0.0 {
-                return lerp(pair[0], pair[1], rest / step);
-            }
-            rest -= step;
-        }
-        self.line.last().copied().unwrap_or_default()
     }
 }

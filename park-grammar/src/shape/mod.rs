@@ -9,7 +9,6 @@ use geo_types::{Coord, Polygon};
 
 pub(crate) use inherit::Heritage;
 pub use local::{Cell, Local, Reach};
-pub(crate) use logical::Side;
 
 use crate::plane::{Area, Ring};
 

@@ -151,6 +151,9 @@ fn cells_know_the_boundary() {
             .edges(0)
             .filter_map(|(_, _, edge)| edge.origin.boundary)
             .collect();
-        assert_eq!((found.len(), outer.is_empty()), (sides, sides == 0));
+        assert_eq!(
+            (found.len(), outer.stretches().is_empty()),
+            (sides, sides == 0)
+        );
     }
 }
