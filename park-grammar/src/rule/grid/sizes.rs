@@ -146,9 +146,9 @@ impl Dimension {
     ) -> Result<Cuts, String> {
         let &Laying {
             width,
-            size,
             exact,
             apart,
+            ..
         } = laying;
         let drawn = self.drawn(extent, laying, chance);
         if drawn.len() > MOST {
