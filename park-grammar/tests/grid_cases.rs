@@ -334,23 +334,6 @@ fn nonsense_is_refused() {
     }
 }
 
-/// A third block without a shape gets the crossing itself; an empty one nothing.
-#[test]
-fn crossings_without_a_shape() {
-    let square = rectangle(80.0, 50.0);
-    let rules = "Region -> Grid(3, 2, width = 2) { Meadow } { Paving } { Deck }";
-    let scene = park(&square, rules).expect("derives");
-    let decks = of(&scene, "Deck");
-    assert_eq!(decks.len(), 2);
-    assert!(decks.iter().all(|p| near(size(&p.polygon), 4.0)));
-    // Arms of paths meet at the corners of crossings, and may be one piece there.
-    let paths: f64 = of(&scene, "Paving").iter().map(|p| size(&p.polygon)).sum();
-    assert!(near(paths, 2.0 * 100.0 + 160.0 - 4.0 * 4.0), "{paths}");
-    let rules = "Region -> Grid(3, 2, width = 2) { Meadow } { Paving } {}";
-    let scene = park(&square, rules).expect("derives");
-    assert_eq!(of(&scene, "Paving").len(), 1);
-}
-
 /// A path once had two arms joined by a hair: along the edge of a centre that had
 /// been cut out of cells, and along the arcs of a cell that a nested grid divided.
 #[test]

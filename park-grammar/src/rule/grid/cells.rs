@@ -28,23 +28,6 @@ pub(super) struct Lattice {
     size: f64,
 }
 
-/// What a centre is.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Centre {
-    /// A shape in the middle of a crossing.
-    Shape(Primitive),
-    /// What both paths cover.
-    Crossing,
-}
-
-/// Where a line between columns meets one between rows.
-#[derive(Debug)]
-struct Crossing<'l> {
-    at: Coord<f64>,
-    column: &'l Line,
-    row: &'l Line,
-}
-
 /// A cell, or one of the parts that a region of any shape leaves of it.
 #[derive(Debug)]
 pub(super) struct Piece {
@@ -108,50 +91,27 @@ impl Lattice {
         (within, rest)
     }
 
-    /// A centre at each crossing inside the areas; whole ones, which may go on
+    /// The shape at each crossing inside the areas; whole ones, which may go on
     /// beyond and overlap.
-    pub(super) fn whole_centres(&self, inside: &[Area], centre: Centre) -> Vec<Area> {
-        let within = |c: &Crossing<'_>| inside.iter().any(|area| area.contains(c.at));
-        let crossings = self.crossings().into_iter().filter(within);
-        crossings.filter_map(|c| self.placed(centre, &c)).collect()
-    }
-
-    /// Where lines cross, from west to east of the map.
-    fn crossings(&self) -> Vec<Crossing<'_>> {
+    pub(super) fn whole_centres(&self, inside: &[Area], shape: Primitive) -> Vec<Area> {
         let mut found = Vec::new();
         for column in &self.lines[0] {
-            for row in &self.lines[1] {
-                let met = column.meets(row);
-                found.extend(met.map(|at| Crossing { at, column, row }));
-            }
+            let crossings = self.lines[1].iter().filter_map(|row| column.meets(row));
+            let within = crossings.filter(|&at| inside.iter().any(|area| area.contains(at)));
+            found.extend(within.map(|at| self.placed(shape, at)));
         }
-        found.sort_by(|p, q| p.at.x.total_cmp(&q.at.x).then(p.at.y.total_cmp(&q.at.y)));
         found
     }
 
-    /// A centre at a crossing; a shape has its upright where the grid has, and is
-    /// mirrored with it.
-    fn placed(&self, centre: Centre, crossing: &Crossing<'_>) -> Option<Area> {
-        let shape = match centre {
-            Centre::Shape(shape) => shape,
-            Centre::Crossing => {
-                let beside = |line: &Line, sign: f64| line.moved(sign * self.half);
-                let mut corners = Vec::with_capacity(4);
-                for (x, y) in [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)] {
-                    let row = beside(crossing.row, y);
-                    corners.push(beside(crossing.column, x).meets(&row)?);
-                }
-                let area = Area::new(corners, Vec::new());
-                return (self.half > 0.0).then_some(area);
-            }
-        };
+    /// A shape whose upright is that of the grid, mirrored with it.
+    fn placed(&self, shape: Primitive, at: Coord<f64>) -> Area {
         let local = Local::new(self.quad);
         let [along, _] = local.axes();
         let sign = if local.mirrored() { 1.0 } else { -1.0 };
         let up = crate::plane::right(along) * sign;
         let upright = shape.ring(Coord::default(), 0.0);
-        let ring = upright.iter().map(|p| crossing.at + along * p.x + up * p.y);
-        Some(Area::new(ring.collect(), Vec::new()))
+        let ring = upright.iter().map(|p| at + along * p.x + up * p.y);
+        Area::new(ring.collect(), Vec::new())
     }
 
     /// All that paths do not cover: cells and centres that go on beyond the areas

@@ -24,9 +24,8 @@
 //! difference of the region and all else, so that nothing is lost.
 //!
 //! A centre is the shape that the third block begins with, at each crossing of
-//! lines inside the region, as far as it lies in the region. If that block begins
-//! with something else, the centre is what both paths cover; without the block, or
-//! where it is empty, crossings are part of the paths.
+//! lines inside the region, as far as it lies in the region. Without a shape
+//! crossings are part of the paths.
 //!
 //! How cells that are mirror images stand to each other is the matter of
 //! [`symmetry`].
@@ -52,7 +51,7 @@ use crate::plane::{
 };
 use crate::shape::{Heritage, Local, Region, Role};
 
-use cells::{Centre, Lattice};
+use cells::Lattice;
 use sizes::{Cut, Dimension, Laying};
 use symmetry::Symmetry;
 
@@ -113,16 +112,8 @@ pub(crate) fn grid(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     } else {
         (fitted.inside, Vec::new())
     };
-    let named = crate::derive::outputs(ask.operation)
-        .get(2)
-        .copied()
-        .flatten();
-    let centre = match (ask.centre, named) {
-        (Some(shape), _) => Some(Centre::Shape(shape)),
-        (None, Some(branch)) if !branch.body.operations.is_empty() => Some(Centre::Crossing),
-        (None, _) => None,
-    };
-    let whole = centre.map_or_else(Vec::new, |c| lattice.whole_centres(&inside, c));
+    let shape = ask.centre;
+    let whole = shape.map_or_else(Vec::new, |shape| lattice.whole_centres(&inside, shape));
     let centres = cells::clipped_centres(&whole, &inside);
     let cells = lattice.cells(&inside);
     let paths = if width > 0.0 {

@@ -45,7 +45,7 @@ fn cells(of: [usize; 2]) -> Vec<Region> {
     let cuts = [0, 1].map(|k| even(of[k], SIZE[k], 2.0));
     let lattice = Lattice::new(region.local.corners, &cuts[0], &cuts[1], 1.0);
     let inside = [region.area.clone()];
-    let centres = lattice.whole_centres(&inside, Centre::Shape(Primitive::Romb(3.0)));
+    let centres = lattice.whole_centres(&inside, Primitive::Romb(3.0));
     assert_eq!(centres.len(), (of[0] - 1) * (of[1] - 1));
     let heritage = Heritage::new(&region, "Grid");
     let symmetry = Symmetry::default();
