@@ -1,0 +1,187 @@
+//! The operations: one file a rule.
+
+mod arguments;
+mod circles;
+pub(crate) mod control;
+mod darts;
+mod distribute;
+mod fit;
+mod fit_rectangle;
+mod grid;
+pub(crate) mod place;
+pub(crate) mod points;
+pub(crate) mod primitive;
+mod scatter;
+mod sweep;
+mod target;
+
+use crate::derive::{Node, Places, Run, Scope};
+use crate::error::Failure;
+use crate::library;
+use crate::scene::Ground;
+use crate::shape::Region;
+use crate::syntax::ast::Operation;
+
+pub(crate) use arguments::Arguments;
+pub(crate) use primitive::Primitive;
+
+/// What a partition rule is asked.
+pub(crate) struct Ask<'a, 's> {
+    /// The operation as it is written.
+    pub(crate) operation: &'a Operation,
+    /// What its arguments are evaluated in; its region is the one to be divided.
+    pub(crate) scope: Scope<'s>,
+    /// Width of paths, metres, unless the arguments say otherwise; 0 where the
+    /// grammar wants none.
+    pub(crate) path_width: f64,
+    /// The shape of centres, if the grammar gives one.
+    pub(crate) centre: Option<Primitive>,
+}
+
+/// One of the outputs of a partition, in the order of the blocks.
+#[derive(Clone, Debug)]
+pub(crate) struct Output {
+    pub(crate) ground: Ground,
+    /// What its regions are made of where the grammar does not say.
+    pub(crate) material: &'static str,
+    pub(crate) regions: Vec<Region>,
+}
+
+/// Regions that tile the one they were cut from.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Partition {
+    pub(crate) outputs: Vec<Output>,
+}
+
+impl Output {
+    pub(crate) fn lawns(regions: Vec<Region>) -> Self {
+        Self {
+            ground: Ground::Region,
+            material: "Lawn",
+            regions,
+        }
+    }
+
+    pub(crate) fn paths(regions: Vec<Region>) -> Self {
+        Self {
+            ground: Ground::Path,
+            material: "Gravel",
+            regions,
+        }
+    }
+}
+
+type Divide = fn(&mut Ask<'_, '_>) -> Result<Partition, Failure>;
+type Act = fn(&mut Run<'_>, &mut Node, &Operation, &Places) -> Result<(), Failure>;
+
+/// What an operation does.
+#[derive(Clone, Copy)]
+pub(crate) enum Deed {
+    /// Divides the region into the outputs of its blocks.
+    Divide(Divide),
+    /// Puts things on the region, or sets what it is.
+    Act(Act),
+    /// Cuts a shape out of the region, and goes on with that.
+    Shape,
+    /// Goes on with one of its branches: `Choose`, `Case`.
+    Branch,
+    /// Gives places, as an argument or a rule of its own.
+    Points,
+}
+
+/// An operation that every grammar knows.
+pub(crate) struct Operator {
+    pub(crate) name: &'static str,
+    pub(crate) deed: Deed,
+}
+
+const fn operator(name: &'static str, deed: Deed) -> Operator {
+    Operator { name, deed }
+}
+
+/// All of them.
+pub(crate) const OPERATORS: &[Operator] = &[
+    operator("Choose", Deed::Branch),
+    operator("Case", Deed::Branch),
+    operator("Circle", Deed::Shape),
+    operator("Romb", Deed::Shape),
+    operator("Square", Deed::Shape),
+    operator("Rectangle", Deed::Shape),
+    operator("Polygon", Deed::Shape),
+    operator("Grid", Deed::Divide(grid::grid)),
+    operator("FitRectangle", Deed::Divide(fit_rectangle::fit_rectangle)),
+    operator("Place", Deed::Act(place::place)),
+    operator("Scatter", Deed::Act(scatter::scatter)),
+    operator("Distribute", Deed::Act(distribute::distribute)),
+    operator("DistributeSmooth", Deed::Act(sweep::sweep)),
+    operator("Sweep", Deed::Act(sweep::sweep)),
+    operator("ScatterCircles", Deed::Points),
+    operator("Corners", Deed::Points),
+    operator("Along", Deed::Points),
+    operator("Parametrise", Deed::Points),
+];
+
+/// Words that mean something as an argument of some operation: flags and modes.
+pub(crate) const WORDS: &[&str] = &[
+    "CENTRE",
+    // Grid and FitRectangle.
+    "Exact",
+    "Apart",
+    "own",
+    "oriented",
+    "bounding",
+    "axis",
+    "inscribed",
+    "optimised",
+    "indexed",
+    "meeting",
+    "blend",
+    "centre",
+    "left",
+    "right",
+    "local",
+    "mirror",
+    "pair",
+    "extended",
+    // Placing and selectors.
+    "AREA",
+    "POISSON",
+    "MIDDLES",
+    "EXACT",
+    "THROUGH",
+    "MITRE",
+    "IN",
+    "OUT",
+    "ALONG",
+    "RANDOM",
+    "LINE",
+    "COMPASS",
+    "LEAVE",
+    "REST",
+    "CORNERS",
+    "ANGLE",
+    "SECTOR",
+    "GROW",
+    "DOMINANT",
+    "NORTHERN",
+    "SPLIT",
+    "BASE",
+    "FLANK",
+    "SEGMENT",
+    "SEAM",
+    "ANY",
+];
+
+pub(crate) fn operator_named(name: &str) -> Option<&'static Operator> {
+    OPERATORS.iter().find(|o| o.name == name)
+}
+
+/// All names that every grammar knows.
+pub(crate) fn names() -> impl Iterator<Item = &'static str> {
+    let operators = OPERATORS.iter().map(|o| o.name);
+    let materials = library::MATERIALS.iter().map(|m| m.name);
+    operators
+        .chain(materials)
+        .chain(library::THINGS.iter().map(|t| t.name))
+        .chain(library::BARRIERS.iter().map(|b| b.name))
+}

@@ -1,0 +1,77 @@
+//! What grammars make of outlines, by examples with known answers.
+
+use park_grammar::geo_types::{polygon, Polygon};
+use park_grammar::scene::Ground;
+use park_grammar::{DeriveOptions, Grammar, ParkError, Scene};
+
+fn square() -> Polygon<f64> {
+    polygon![(x: 0., y: 0.), (x: 80., y: 0.), (x: 80., y: 50.), (x: 0., y: 50.)]
+}
+
+fn derive(rules: &str) -> Result<Scene, ParkError> {
+    let grammar = Grammar::new(&format!("grammar 1\n{rules}"))?;
+    grammar.derive(&square(), &DeriveOptions::default())
+}
+
+#[test]
+fn shapes_are_cut_out() {
+    let park = derive(
+        "Region -> Meadow\n    Place((0.25, 0.5)) { Square(10) Gravel Fountain }\n    Place(CENTRE) { Tree }",
+    )
+    .expect("derives");
+    assert_eq!(park.pieces.len(), 2);
+    assert_eq!(park.pieces[0].ground, Ground::Path);
+    assert_eq!(park.pieces[1].material, "Meadow");
+    let names: Vec<&str> = park.objects.iter().map(|o| o.name.as_str()).collect();
+    assert_eq!(names, ["Fountain", "Tree"]);
+    let at = park.objects[0].at;
+    assert!((at.x - 20.0).abs() < 1e-9 && (at.y - 25.0).abs() < 1e-9);
+}
+
+#[test]
+fn what_has_no_room_has_an_alternative() {
+    let error = derive("Region -> Circle(26) Gravel").expect_err("no room");
+    assert!(error.to_string().contains("no room"), "{error}");
+    let park =
+        derive("Region -> Place(CENTRE) { Circle(26) Gravel } else { Sand }").expect("derives");
+    assert_eq!(park.pieces.len(), 1);
+    assert_eq!(park.pieces[0].material, "Sand");
+}
+
+#[test]
+fn branches_are_chosen() {
+    let park = derive("Region -> Case { area > 4000: Water | sides == 4: Sand | else: Soil }");
+    assert_eq!(park.expect("derives").pieces[0].material, "Sand");
+    let park = derive("Region -> Choose { 0: Water | 2: Soil }").expect("derives");
+    assert_eq!(park.pieces[0].material, "Soil");
+}
+
+#[test]
+fn rules_without_end_are_stopped() {
+    for rules in ["Region -> Region", "Region -> Case { else: Region }"] {
+        let error = derive(rules).expect_err("endless");
+        assert!(matches!(error, ParkError::Limit { .. }), "{error}");
+    }
+}
+
+#[test]
+fn functions_and_parameters_have_values() {
+    let rules = "param Size = 4 m\nfun twice(x) = 2 * x\nRegion -> Disc(twice(Size))\nDisc(r) -> Place(CENTRE) { Circle(r) Sand }";
+    let park = derive(rules).expect("derives");
+    // A polygon of 36 corners on a circle of 8 m.
+    let wanted = 18.0 * 64.0 * (std::f64::consts::PI / 18.0).sin();
+    let ring = park.pieces[0].polygon.exterior();
+    let doubled: f64 = ring.lines().map(|l| l.determinant()).sum();
+    assert!((doubled / 2.0 - wanted).abs() < 1e-6, "{}", doubled / 2.0);
+}
+
+#[test]
+fn bad_outlines_are_named() {
+    let grammar = Grammar::new("grammar 1\nRegion -> Lawn").expect("reads");
+    let line = polygon![(x: 0., y: 0.), (x: 80., y: 0.), (x: 0., y: 0.)];
+    let nan = polygon![(x: 0., y: f64::NAN), (x: 80., y: 0.), (x: 0., y: 9.)];
+    for bad in [line, nan] {
+        let found = grammar.derive(&bad, &DeriveOptions::default());
+        assert!(matches!(found, Err(ParkError::Outline { .. })), "{found:?}");
+    }
+}

@@ -1,0 +1,374 @@
+//! Laws of `Grid` and `FitRectangle`: what they make tiles the region, moves and
+//! turns with it, and is symmetric where cells are mirror images.
+
+use park_grammar::geo_types::{Coord, LineString, Polygon};
+use park_grammar::{DeriveOptions, Grammar, ParkError, Scene};
+use proptest::collection::vec;
+use proptest::prelude::*;
+
+/// Few cases, or with `URBAN_LAYOUT_LONG` many.
+fn config(few: u32, many: u32) -> ProptestConfig {
+    let long = std::env::var_os("URBAN_LAYOUT_LONG").is_some();
+    ProptestConfig::with_cases(if long { many } else { few })
+}
+
+fn park(outline: &Polygon<f64>, rules: &str, seed: u64) -> Result<Scene, ParkError> {
+    let grammar = Grammar::new(&format!("grammar 1\n{rules}"))?;
+    let options = DeriveOptions {
+        seed,
+        ..DeriveOptions::default()
+    };
+    grammar.derive(outline, &options)
+}
+
+fn signed(line: &LineString<f64>) -> f64 {
+    let origin = line.0[0];
+    let moved = |c: Coord<f64>| c - origin;
+    let part = |(a, b): (Coord<f64>, Coord<f64>)| a.x * b.y - a.y * b.x;
+    let doubled: f64 = line
+        .lines()
+        .map(|l| part((moved(l.start), moved(l.end))))
+        .sum();
+    doubled / 2.0
+}
+
+fn size(polygon: &Polygon<f64>) -> f64 {
+    let holes: f64 = polygon.interiors().iter().map(|r| signed(r).abs()).sum();
+    signed(polygon.exterior()).abs() - holes
+}
+
+fn within(polygon: &Polygon<f64>, p: Coord<f64>) -> bool {
+    let rings = std::iter::once(polygon.exterior()).chain(polygon.interiors());
+    let crosses = |a: Coord<f64>, b: Coord<f64>| {
+        (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) * (b.x - a.x) / (b.y - a.y)
+    };
+    let lines = rings.flat_map(|ring| ring.lines());
+    lines.filter(|l| crosses(l.start, l.end)).count() % 2 == 1
+}
+
+/// How far a point is from any edge of a polygon.
+fn clearance(polygon: &Polygon<f64>, p: Coord<f64>) -> f64 {
+    let rings = std::iter::once(polygon.exterior()).chain(polygon.interiors());
+    let away = |l: park_grammar::geo_types::Line<f64>| {
+        let (d, v) = (l.delta(), p - l.start);
+        let square = d.x * d.x + d.y * d.y;
+        let t = if square > 0.0 {
+            ((v.x * d.x + v.y * d.y) / square).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        (v.x - t * d.x).hypot(v.y - t * d.y)
+    };
+    rings
+        .flat_map(|r| r.lines())
+        .map(away)
+        .fold(f64::MAX, f64::min)
+}
+
+/// Where the middle of a polygon's mass lies.
+fn middle(polygon: &Polygon<f64>) -> Coord<f64> {
+    let (mut sum, mut doubled) = (Coord::default(), 0.0);
+    let origin = polygon.exterior().0[0];
+    for ring in std::iter::once(polygon.exterior()).chain(polygon.interiors()) {
+        for line in ring.lines() {
+            let (a, b) = (line.start - origin, line.end - origin);
+            let part = a.x * b.y - a.y * b.x;
+            sum = sum + (a + b) * part;
+            doubled += part;
+        }
+    }
+    origin + sum / (3.0 * doubled)
+}
+
+/// A polygon of any shape around a middle, up to 40 vertices, concave as a rule.
+fn outline() -> impl Strategy<Value = Polygon<f64>> {
+    let ring = vec((0.2..1.0_f64, 20.0..90.0_f64), 4..=40);
+    (ring, 0.0..6.3_f64, any::<bool>()).prop_map(|(steps, start, hole)| {
+        let whole: f64 = steps.iter().map(|s| s.0).sum();
+        let mut angle = start;
+        let points: Vec<Coord<f64>> = steps
+            .iter()
+            .map(|(step, radius)| {
+                angle += step / whole * std::f64::consts::TAU;
+                Coord {
+                    x: radius * angle.cos(),
+                    y: radius * angle.sin(),
+                }
+            })
+            .collect();
+        // Within half of the least distance of an edge between two vertices.
+        let round = |k: u32| f64::from(k) / 6.0 * std::f64::consts::TAU + start;
+        let inner = (0..6).map(|k| Coord {
+            x: 3.0 * round(k).cos(),
+            y: 3.0 * round(k).sin(),
+        });
+        let holes = if hole && steps.len() > 8 {
+            vec![inner.collect()]
+        } else {
+            Vec::new()
+        };
+        Polygon::new(LineString(points), holes)
+    })
+}
+
+/// One dimension of a grid.
+fn dimension() -> impl Strategy<Value = String> {
+    prop_oneof![
+        (1..7_u32).prop_map(|n| n.to_string()),
+        (1..6_u32, 2..9_u32, 3..20_u32).prop_map(|(n, a, b)| format!("{n} {{{a}, {b}}}")),
+        (5..25_u32).prop_map(|a| format!("{{{a}}}")),
+        (2..6_u32, 0..40_u32).prop_map(|(n, a)| format!("{n} {{a[-{a}, {a}]}}")),
+        (3..9_u32, 0..30_u32).prop_map(|(s, a)| format!("{{[{s}, {}]a[-{a}, {a}]}}", 3 * s)),
+    ]
+}
+
+fn arguments() -> impl Strategy<Value = String> {
+    let fit = prop_oneof![
+        4 => Just(""),
+        1 => Just(", fit = oriented"),
+        1 => Just(", fit = bounding, direction = 20"),
+        1 => Just(", fit = axis"),
+        1 => Just(", fit = inscribed"),
+        1 => Just(", fit = optimised"),
+        1 => Just(", fit = indexed"),
+        1 => Just(", fit = meeting"),
+        1 => Just(", fit = blend, factor = 0.3"),
+    ];
+    let flags = prop_oneof![Just(""), Just(", Exact"), Just(", Apart")];
+    (dimension(), dimension(), fit, flags)
+        .prop_map(|(x, y, fit, flags)| format!("{x}, {y}{fit}{flags}, min_angle = 5"))
+}
+
+fn is_tiled(
+    outline: &Polygon<f64>,
+    scene: &Scene,
+    points: &[(f64, f64)],
+) -> Result<(), TestCaseError> {
+    let whole = size(outline);
+    let all: f64 = scene.pieces.iter().map(|p| size(&p.polygon)).sum();
+    prop_assert!((all / whole - 1.0).abs() < 1e-9, "{all} of {whole}");
+    for piece in &scene.pieces {
+        prop_assert!(signed(piece.polygon.exterior()) > 0.0);
+        for p in &piece.polygon.exterior().0 {
+            prop_assert!(
+                within(outline, *p) || clearance(outline, *p) < 1e-7,
+                "{p:?} is outside"
+            );
+        }
+    }
+    // Each point lies in one piece.
+    for &(x, y) in points {
+        let p = Coord { x, y };
+        let sure = scene
+            .pieces
+            .iter()
+            .all(|piece| clearance(&piece.polygon, p) > 1e-7);
+        let count = scene
+            .pieces
+            .iter()
+            .filter(|piece| within(&piece.polygon, p))
+            .count();
+        prop_assert!(
+            !sure || count == usize::from(within(outline, p)),
+            "{count} at {p:?}"
+        );
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(config(96, 20_000))]
+
+    /// Whatever is asked of whatever shape, the pieces tile it, or the region does
+    /// not suit and the error says why.
+    #[test]
+    fn grids_tile_any_region(
+        outline in outline(),
+        arguments in arguments(),
+        paths in prop_oneof![Just("{}"), Just("{ Paving }"), Just("{ Paving } { Circle(3) Sand }"), Just("{} { Romb(4) Sand }")],
+        points in vec((-80.0..80.0_f64, -80.0..80.0_f64), 30),
+        seed in 0..1000_u64,
+    ) {
+        let rules = format!("Region -> Grid({arguments}) {{ Meadow }} {paths}");
+        match park(&outline, &rules, seed) {
+            Ok(scene) => {
+                is_tiled(&outline, &scene, &points)?;
+                prop_assert_eq!(Ok(scene), park(&outline, &rules, seed));
+            }
+            Err(error) => prop_assert!(matches!(error, ParkError::Rule(_)), "{}", error),
+        }
+    }
+
+    /// Grids in the cells of grids tile too, on cells of any shape.
+    #[test]
+    fn nested_grids_tile_any_region(
+        outline in outline(),
+        first in arguments(),
+        second in arguments(),
+        points in vec((-80.0..80.0_f64, -80.0..80.0_f64), 30),
+        seed in 0..1000_u64,
+    ) {
+        let rules = format!(
+            "Region -> Grid({first}) {{ Inner }} {{ Paving }} {{ Circle(3) Sand }}\nInner -> Grid({second}) {{ Meadow }} else {{ Soil }}"
+        );
+        if let Ok(scene) = park(&outline, &rules, seed) {
+            is_tiled(&outline, &scene, &points)?;
+        }
+    }
+
+    /// A rectangle and the rest tile too.
+    #[test]
+    fn rectangles_and_the_rest_tile(
+        outline in outline(),
+        fit in prop_oneof![Just("inscribed"), Just("optimised"), Just("axis")],
+        points in vec((-80.0..80.0_f64, -80.0..80.0_f64), 30),
+    ) {
+        let rules = format!("Region -> FitRectangle(fit = {fit}) {{ Meadow | Sand }}");
+        let scene = park(&outline, &rules, 0).expect("something fits");
+        is_tiled(&outline, &scene, &points)?;
+        if fit != "optimised" {
+            let inner: Vec<_> = scene.pieces.iter().filter(|p| p.material == "Meadow").collect();
+            prop_assert_eq!(inner.len(), 1, "one rectangle, without a hole");
+            prop_assert!(inner[0].polygon.interiors().is_empty());
+        }
+    }
+}
+
+/// Turns by `angle`, mirrors if wanted, and moves.
+#[derive(Clone, Copy, Debug)]
+struct Motion {
+    angle: f64,
+    mirror: bool,
+    by: Coord<f64>,
+}
+
+impl Motion {
+    fn of(self, p: Coord<f64>) -> Coord<f64> {
+        let x = if self.mirror { -p.x } else { p.x };
+        let (sin, cos) = self.angle.sin_cos();
+        Coord {
+            x: x * cos - p.y * sin + self.by.x,
+            y: x * sin + p.y * cos + self.by.y,
+        }
+    }
+
+    fn polygon(self, polygon: &Polygon<f64>) -> Polygon<f64> {
+        let ring = |line: &LineString<f64>| line.0.iter().map(|&c| self.of(c)).collect();
+        Polygon::new(
+            ring(polygon.exterior()),
+            polygon.interiors().iter().map(ring).collect(),
+        )
+    }
+}
+
+/// That each piece and object of one scene has its image in the other.
+fn is_image(a: &Scene, b: &Scene, motion: Motion, far: f64) -> Result<(), TestCaseError> {
+    prop_assert_eq!(a.pieces.len(), b.pieces.len());
+    prop_assert_eq!(a.objects.len(), b.objects.len());
+    let places: Vec<_> = b
+        .pieces
+        .iter()
+        .map(|p| (middle(&p.polygon), size(&p.polygon), p.material.as_str()))
+        .collect();
+    let near = |p: Coord<f64>, q: Coord<f64>| (p.x - q.x).hypot(p.y - q.y) < far;
+    for piece in &a.pieces {
+        let (at, here) = (motion.of(middle(&piece.polygon)), size(&piece.polygon));
+        // Of a sliver the middle is not known to so many digits.
+        let found = places.iter().any(|(p, size, material)| {
+            (near(*p, at) || here < 1e-3)
+                && (size - here).abs() < far * 100.0
+                && *material == piece.material
+        });
+        prop_assert!(found, "{} at {at:?} of {here}", piece.material);
+    }
+    for object in &a.objects {
+        let found = b
+            .objects
+            .iter()
+            .any(|o| near(o.at, motion.of(object.at)) && o.name == object.name);
+        prop_assert!(found, "{} at {:?}", object.name, object.at);
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(config(48, 5_000))]
+
+    /// A grid in the oriented box moves, turns and mirrors with its region. Which
+    /// of its axes is x depends on the map, so that both have as many cells.
+    #[test]
+    fn oriented_grids_move_with_the_region(
+        outline in outline(),
+        count in 2..6_u32,
+        angle in -3.2..3.2_f64,
+        mirror in any::<bool>(),
+        by in (-1e4..1e4_f64, -1e4..1e4_f64),
+    ) {
+        let rules = format!("Region -> Grid({count}, {count}, fit = oriented) {{ Meadow }} {{ Paving }} {{ Circle(2) Sand }}");
+        let motion = Motion { angle, mirror, by: Coord { x: by.0, y: by.1 } };
+        let here = park(&outline, &rules, 0);
+        let there = park(&motion.polygon(&outline), &rules, 0);
+        match (here, there) {
+            (Ok(here), Ok(there)) => is_image(&here, &there, motion, 1e-6)?,
+            (here, there) => prop_assert_eq!(here.is_err(), there.is_err()),
+        }
+    }
+
+    /// A move alone changes nothing of any grid.
+    #[test]
+    fn grids_move_with_the_region(
+        outline in outline(),
+        arguments in arguments(),
+        by in (-1e4..1e4_f64, -1e4..1e4_f64),
+    ) {
+        let rules = format!("Region -> Grid({arguments}) {{ Meadow }} {{ Paving }}");
+        let motion = Motion { angle: 0.0, mirror: false, by: Coord { x: by.0.round(), y: by.1.round() } };
+        let searched = ["optimised", "inscribed", "blend", "axis"].iter().any(|fit| arguments.contains(fit));
+        let here = park(&outline, &rules, 7);
+        let there = park(&motion.polygon(&outline), &rules, 7);
+        match (here, there) {
+            (Ok(here), Ok(there)) if !searched => {
+                is_image(&here, &there, motion, 1e-5)?;
+            }
+            // A search for the best box ends within its own tolerance.
+            _ if searched => {}
+            (here, there) => prop_assert_eq!(here.is_err(), there.is_err()),
+        }
+    }
+
+    /// On a rectangle what cells do is symmetric under both mirrors of the grid.
+    #[test]
+    fn grids_of_rectangles_are_symmetric(
+        width in 60.0..140.0_f64,
+        height in 60.0..140.0_f64,
+        columns in 2..6_u32,
+        rows in 2..6_u32,
+        at in (0.0..1.0_f64, 0.0..1.0_f64),
+        treatment in prop_oneof![
+            Just(""), Just(", middle = centre"), Just(", symmetry = mirror"), Just(", symmetry = pair"), Just(", symmetry = extended"),
+        ],
+        rule in 0..4_usize,
+    ) {
+        let cell = match rule {
+            0 => format!("Place(({}, {})) {{ Bush }}", at.0, at.1),
+            1 => format!("Case {{ metric_x > 0 and outer > 1: Sand | metric_y == 1: Soil | else: Meadow }} Place(({}, 0.5)) {{ Tree }} Place((1.4, {})) {{ Lamp }}", at.0, at.1),
+            2 => "Grid(2, 3 {1, 2, 1}, width = 1) { Meadow } { Paving } { Romb(2) Sand }".to_owned(),
+            // In even grids whatever is inside is mirrored with the cell; in odd
+            // ones a middle cell is its own mirror image, and what a rule makes
+            // there must be so too.
+            _ if columns % 2 == 0 && rows % 2 == 0 => {
+                "Grid({1, 3, 2}, {1 m, 2, 3}, width = 0.3) { Meadow } { Paving } { Polygon(3, 0.5) Sand }".to_owned()
+            }
+            _ => "Grid(2, 2, fit = bounding) { Meadow Place(CENTRE) { Tree } }".to_owned(),
+        };
+        let rules = format!("Region -> Grid({columns}, {rows}{treatment}) {{ Cell }} {{ Paving }} {{ Circle(2) Gravel }}\nCell -> {cell}");
+        let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)];
+        let outline = Polygon::new(corners.iter().map(|&(x, y)| Coord { x, y }).collect(), vec![]);
+        let scene = park(&outline, &rules, 3).expect("derives");
+        let upright = Motion { angle: 0.0, mirror: true, by: Coord { x: width, y: 0.0 } };
+        is_image(&scene, &scene, upright, 1e-6)?;
+        // Mirrored and turned by half a turn: upside down.
+        let half = Motion { angle: std::f64::consts::PI, mirror: true, by: Coord { x: 0.0, y: height } };
+        is_image(&scene, &scene, half, 1e-6)?;
+    }
+}
