@@ -27,7 +27,7 @@ mod regions;
 mod traffic;
 
 pub use places::{Places, SinkPlaces};
-pub use traffic::{StudyTraffic, TrafficOptions};
+pub use traffic::{Journey, StudyTraffic, TrafficOptions};
 
 /// What `--spec` holds.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -41,6 +41,8 @@ pub struct NetworkSpec {
     pub existing_speed: Option<f64>,
     /// The levels, the widest streets first. Default: collectors alone.
     pub level: Vec<LevelSpec>,
+    /// Who drives on the finished network.
+    pub demand: TrafficOptions,
 }
 
 /// One level of streets.
@@ -68,6 +70,7 @@ impl Default for NetworkSpec {
             edge_length: 0.0,
             existing_speed: None,
             level: vec![LevelSpec::default()],
+            demand: TrafficOptions::default(),
         }
     }
 }

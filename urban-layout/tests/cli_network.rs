@@ -186,6 +186,32 @@ fn files_for_sumo_are_written() {
     assert!((0.7..1.3).contains(&ratio), "{simulated}");
 }
 
+/// 150 cars an hour for two hours from corner to corner, and nobody else.
+#[test]
+fn demand_is_part_of_a_specification() {
+    let bench = Bench::new();
+    let demand =
+        "[demand]\ncars-per-km2 = 0.0\npairs = [{ from = [5, 5], to = [235, 145], cars = 150 }]\n";
+    std::fs::write(bench.path("spec.toml"), demand).expect("written");
+    let words = [
+        "network",
+        "site.geojson",
+        "--spec",
+        "spec.toml",
+        "--deadline",
+        "0.5",
+        "--out",
+        "net",
+        "--json",
+    ];
+    let traffic = &json(&bench.expect(0, &words))["traffic"];
+    assert_eq!(traffic["trips"], 300);
+    assert_eq!(traffic["cars_per_hour"], 150.0);
+    // Along a straight line at least, and not round the whole block.
+    let metres = traffic["mean_distance_m"].as_f64().expect("metres");
+    assert!((269.0..600.0).contains(&metres), "{metres}");
+}
+
 #[test]
 fn strange_numbers_of_cars_are_refused() {
     let bench = Bench::new();

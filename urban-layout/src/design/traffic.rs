@@ -8,6 +8,7 @@ use network_opt::traffic::{
     assign, exits, nearest_nodes, roads_of, spread_points, Assignment, Demand, NodingOptions, Road,
     RoadClass, StreetGraph, Traffic, TrafficError, Trip,
 };
+use serde::Deserialize;
 use serde_json::{json, Value};
 
 use super::NetworkStudy;
@@ -15,8 +16,9 @@ use crate::error::{Error, Result};
 use crate::network::entries;
 use crate::site::Site;
 
-/// How much traffic there is, and how fast.
-#[derive(Clone, Debug, PartialEq)]
+/// How much traffic there is: what a specification has under `[demand]`.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(default, rename_all = "kebab-case", deny_unknown_fields)]
 pub struct TrafficOptions {
     /// Cars per square kilometre and hour that leave the site, from places spread
     /// uniformly over it.
@@ -29,6 +31,11 @@ pub struct TrafficOptions {
     ///
     /// Default value: 0.
     pub external: f64,
+    /// Cars besides from place to place: the demand of the paper's section 3, and
+    /// the arrows of figure 8a.
+    ///
+    /// Default value: none.
+    pub pairs: Vec<Journey>,
     /// For how many hours.
     ///
     /// Default value: 2.
@@ -44,11 +51,25 @@ pub struct TrafficOptions {
     pub seed: u64,
 }
 
+/// So many cars an hour from the street nearest to one place to that nearest to
+/// another, places in the coordinates of the site's file.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Journey {
+    /// Where they set off.
+    pub from: [f64; 2],
+    /// Where they go.
+    pub to: [f64; 2],
+    /// How many an hour.
+    pub cars: f64,
+}
+
 impl Default for TrafficOptions {
     fn default() -> Self {
         Self {
             cars_per_km2: 250.0,
             external: 0.0,
+            pairs: Vec::new(),
             hours: 2.0,
             pieces: 60.0,
             seed: 0,
@@ -104,6 +125,7 @@ impl StudyTraffic {
         out.dedup();
         let mut trips = trips(&graph, &out, &site.parts, cars, options).map_err(fault)?;
         trips.extend(external(&graph, site, options)?);
+        trips.extend(journeys(&graph, site, options)?);
         trips.sort_by(|a, b| a.depart.total_cmp(&b.depart));
         let demand = Demand::of_trips(&trips, options.hours);
         let predicted = assign(&graph, &demand, &Assignment::ShortestTime).map_err(fault)?;
@@ -218,6 +240,25 @@ fn external(graph: &StreetGraph, site: &Site, options: &TrafficOptions) -> Resul
     // A stream of chance of its own, whatever the trips from within.
     let seed = options.seed ^ 0x9e37_79b9_7f4a_7c15;
     let demand = Demand::among(&gates, options.external);
+    demand.trips(options.hours, seed).map_err(fault)
+}
+
+/// Trips between named places.
+fn journeys(graph: &StreetGraph, site: &Site, options: &TrafficOptions) -> Result<Vec<Trip>> {
+    let mut demand = Demand::default();
+    for (k, pair) in options.pairs.iter().enumerate() {
+        if pair.from.iter().chain(&pair.to).any(|x| !x.is_finite()) {
+            return Err(Error::usage(format!(
+                "a place of pair {k} of the demand is not a number"
+            )));
+        }
+        let places = [pair.from, pair.to].map(|place| site.frame.to_local(place.into()));
+        let [from, to] = nearest_nodes(graph, &places, &|_| true)[..] else {
+            return Err(Error::input("the network has no street to send cars over"));
+        };
+        demand = demand.plus(&Demand::pairs(&[(from, to)], pair.cars));
+    }
+    let seed = options.seed ^ 0xd1b5_4a32_d192_ed03;
     demand.trips(options.hours, seed).map_err(fault)
 }
 

@@ -203,13 +203,14 @@ pub(crate) struct NetworkJob {
     /// Also draw network.png and traffic.png.
     #[arg(long)]
     pub(crate) png: bool,
-    /// Cars per square kilometre and hour that leave the site.
-    #[arg(long, default_value_t = 250.0, value_name = "N")]
-    pub(crate) cars: f64,
+    /// Cars per square kilometre and hour that leave the site [default: as the
+    /// specification says, 250].
+    #[arg(long, value_name = "N")]
+    pub(crate) cars: Option<f64>,
     /// Cars an hour besides from each place where a street outside meets the
-    /// boundary to the others, in all.
-    #[arg(long, default_value_t = 0.0, value_name = "N")]
-    pub(crate) external: f64,
+    /// boundary to the others, in all [default: as the specification says, 0].
+    #[arg(long, value_name = "N")]
+    pub(crate) external: Option<f64>,
     /// Write files for the traffic simulator SUMO, and run it if it is installed.
     #[arg(long)]
     pub(crate) sumo: bool,

@@ -106,11 +106,12 @@ fn traffic(
     study: &NetworkStudy,
     site: &Site,
 ) -> Result<(Option<StudyTraffic>, Option<Simulated>)> {
+    let wanted = &study.spec.demand;
     let options = TrafficOptions {
-        cars_per_km2: job.cars,
-        external: job.external,
-        seed: job.seed,
-        ..TrafficOptions::default()
+        cars_per_km2: job.cars.unwrap_or(wanted.cars_per_km2),
+        external: job.external.unwrap_or(wanted.external),
+        seed: wanted.seed.wrapping_add(job.seed),
+        ..wanted.clone()
     };
     let traffic = match StudyTraffic::new(study, site, &options) {
         Ok(traffic) => traffic,
