@@ -29,7 +29,7 @@ pub struct Highs;
 
 impl Highs {
     /// How long HiGHS has to stop before it is left behind.
-    pub const GRACE: Duration = Duration::from_millis(100);
+    pub const GRACE: Duration = Duration::from_millis(70);
     /// Between two looks at the watch.
     const SLICE: Duration = Duration::from_millis(50);
 

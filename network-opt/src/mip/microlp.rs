@@ -225,7 +225,7 @@ fn search(
 
 impl Microlp {
     /// How long it has to stop before it is left behind.
-    pub const GRACE: Duration = Duration::from_millis(100);
+    pub const GRACE: Duration = Duration::from_millis(70);
 
     fn failed(self, what: &str) -> DesignError {
         DesignError::SolverFailed {
