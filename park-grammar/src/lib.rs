@@ -3,6 +3,7 @@
 mod derive;
 mod error;
 mod grammar;
+pub mod grammars;
 mod index;
 pub mod library;
 pub mod mesh;

@@ -7,6 +7,7 @@
 
 mod content;
 mod eval;
+mod math;
 mod object;
 mod random;
 mod standing;
@@ -20,6 +21,7 @@ use geo_types::Polygon;
 
 pub(crate) use content::Size;
 pub(crate) use eval::{Places, Scope, ATTRIBUTES};
+pub(crate) use math::NAMES as FUNCTIONS;
 pub(crate) use object::{mesh_file, OBJECT};
 pub(crate) use random::Stream;
 pub(crate) use standing::{clear, inside, Disc, Standing};

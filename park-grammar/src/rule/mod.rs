@@ -144,6 +144,7 @@ pub(crate) const WORDS: &[&str] = &[
     "pair",
     "extended",
     // Placing and selectors.
+    "POLE",
     "AREA",
     "POISSON",
     "MIDDLES",
