@@ -12,7 +12,7 @@ use super::random::Stream;
 use super::value::{Late, Number, SizeRange, Sizing, Value};
 use crate::error::{Failure, ParkError};
 use crate::grammar::Grammar;
-use crate::plane::pole;
+use crate::plane::{dot, pole};
 use crate::rule::points;
 use crate::select::{named, Selection};
 use crate::shape::Region;
@@ -465,11 +465,13 @@ fn arithmetic(op: BinaryOp, a: Number, b: Number, span: Span) -> Found {
 }
 
 /// The names of attributes, for hints.
-pub(crate) const ATTRIBUTES: [&str; 14] = [
+pub(crate) const ATTRIBUTES: [&str; 16] = [
     "area",
     "perimeter",
     "width",
     "height",
+    "extent_x",
+    "extent_y",
     "room",
     "sides",
     "depth",
@@ -497,6 +499,8 @@ fn attribute(region: &Region, name: &str) -> Option<Value> {
         "perimeter" => metres(Selection::all(region).length()),
         "width" => metres(high.x - low.x),
         "height" => metres(high.y - low.y),
+        "extent_x" => metres(own_extent(region, 0)),
+        "extent_y" => metres(own_extent(region, 1)),
         // Radius of the largest circle that it holds.
         "room" => metres(region.area.nearest(pole(&region.area)).1),
         "sides" => Number::plain(region.sides as f64),
@@ -510,6 +514,18 @@ fn attribute(region: &Region, name: &str) -> Option<Value> {
         "convex" => return Some(Value::Bool(convex(region))),
         _ => return None,
     }))
+}
+
+/// How far a region reaches along one of its own axes, those that a grid follows.
+fn own_extent(region: &Region, axis: usize) -> f64 {
+    let along = region.local.axes()[axis];
+    let ends = |(low, high): (f64, f64), &p: &Coord<f64>| {
+        let at = dot(along, p);
+        (low.min(at), high.max(at))
+    };
+    let none = (f64::INFINITY, f64::NEG_INFINITY);
+    let (low, high) = region.area.outer.iter().fold(none, ends);
+    high - low
 }
 
 fn convex(region: &Region) -> bool {
