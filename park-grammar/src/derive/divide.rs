@@ -1,6 +1,6 @@
 //! Regions that are divided, and the rules of their parts.
 
-use super::{Node, Places, Run, Standing, Value};
+use super::{Node, Places, Run, Value};
 use crate::error::Failure;
 use crate::rule::{operator_named, Ask, Deed, Partition, Primitive};
 use crate::syntax::ast::{Body, Branch, Operation};
@@ -49,18 +49,10 @@ impl Run<'_> {
         for (k, output) in partition.outputs.into_iter().enumerate() {
             let branch = outputs.get(k).copied().flatten();
             for region in output.regions {
-                let mut child = Node {
-                    region,
-                    ground: output.ground,
-                    material: output.material.to_owned(),
-                    rule: node.rule.clone(),
-                    chance: node.chance.child(),
-                    carved: Vec::new(),
-                    standing: Standing::default(),
-                    divided: false,
-                    shaped: k == 2 && centre.is_some(),
-                    level: node.level,
-                };
+                let mut child = node.child(region);
+                child.ground = output.ground;
+                child.material = output.material.to_owned();
+                child.shaped = k == 2 && centre.is_some();
                 if let Some(branch) = branch {
                     self.deeper(&mut child, |run, child| {
                         run.body(child, &branch.body.operations, places)

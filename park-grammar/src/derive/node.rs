@@ -24,3 +24,32 @@ pub(crate) struct Node {
     /// How deep in rules.
     pub(super) level: usize,
 }
+
+impl Node {
+    /// A region where a derivation begins.
+    pub(super) fn new(region: Region, rule: &str, chance: Stream) -> Self {
+        Self {
+            region,
+            ground: Ground::Region,
+            material: "Lawn".to_owned(),
+            rule: rule.to_owned(),
+            chance,
+            carved: Vec::new(),
+            standing: Standing::default(),
+            divided: false,
+            shaped: false,
+            level: 0,
+        }
+    }
+
+    /// A region that was cut from this one: it follows the same rule until
+    /// another is named, with a chance of its own.
+    pub(super) fn child(&mut self, region: Region) -> Self {
+        Self {
+            ground: self.ground,
+            material: self.material.clone(),
+            level: self.level,
+            ..Self::new(region, &self.rule, self.chance.child())
+        }
+    }
+}

@@ -2,7 +2,7 @@
 
 use std::slice::from_ref;
 
-use super::{clear, Node, Places, Run, Spot, Standing};
+use super::{clear, Node, Places, Run, Spot};
 use crate::error::Failure;
 use crate::index;
 use crate::plane::{difference, intersection, Area};
@@ -46,18 +46,7 @@ impl Run<'_> {
         let mut region = heritage.piece(area.clone(), local, |_, _| Some(Role::Centre));
         index::by_local(&mut region);
         node.carved.push(area);
-        let mut child = Node {
-            region,
-            ground: node.ground,
-            material: node.material.clone(),
-            rule: node.rule.clone(),
-            chance: node.chance.child(),
-            carved: Vec::new(),
-            standing: Standing::default(),
-            divided: false,
-            shaped: false,
-            level: node.level,
-        };
+        let mut child = node.child(region);
         self.deeper(&mut child, |run, child| run.body(child, rest, places))?;
         self.finish(&mut child)
     }

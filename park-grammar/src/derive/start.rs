@@ -5,12 +5,12 @@ use std::time::Instant;
 
 use geo_types::Polygon;
 
-use super::{DeriveOptions, Node, Run, Standing, Stream};
+use super::{DeriveOptions, Node, Run, Stream};
 use crate::error::ParkError;
 use crate::grammar::Grammar;
 use crate::index;
 use crate::plane::Area;
-use crate::scene::{Ground, Scene};
+use crate::scene::Scene;
 use crate::shape::Region;
 
 impl Grammar {
@@ -71,18 +71,7 @@ impl Grammar {
             steps: std::cell::Cell::new(0),
             watch,
         };
-        let mut node = Node {
-            region,
-            ground: Ground::Region,
-            material: "Lawn".to_owned(),
-            rule: self.start().to_owned(),
-            chance: Stream::new(options.seed),
-            carved: Vec::new(),
-            standing: Standing::default(),
-            divided: false,
-            shaped: false,
-            level: 0,
-        };
+        let mut node = Node::new(region, self.start(), Stream::new(options.seed));
         let done = run
             .set_params(&mut node)
             .and_then(|()| run.start(&mut node));
