@@ -314,12 +314,28 @@ fn nonsense_is_refused() {
         ("Region -> Grid(2 {a 85}, 2) { Meadow }", "80 degrees"),
         (
             "Region -> Grid(2, 2, fit = left) { Meadow }",
-            "a way to fit",
+            "fit is own, oriented",
         ),
         ("Region -> Grid(2, 2, middle = own) { Meadow }", "middle is"),
         (
             "Region -> Grid(2, 2, of = [blend, own]) { Meadow }",
             "two fits",
+        ),
+        (
+            "Region -> Grid(2, 2, exact) { Meadow }",
+            "did you mean Exact?",
+        ),
+        (
+            "Region -> Grid(2, 2, Through) { Meadow }",
+            "its flags are Exact, Apart",
+        ),
+        (
+            "Region -> Grid(2, 2, fit = Oriented) { Meadow }",
+            "did you mean oriented?",
+        ),
+        (
+            "Region -> Grid(2, 2, middle = CENTRE) { Meadow }",
+            "did you mean centre?",
         ),
         (
             "Region -> Grid(2, 2, widht = 3) { Meadow }",
