@@ -74,7 +74,7 @@ const fn thing(
 }
 
 /// All materials; the names in capitals are those of the notes.
-pub const MATERIALS: [Material; 16] = [
+pub const MATERIALS: [Material; 17] = [
     material("Lawn", "#b7d58a", false),
     material("Meadow", "#c9d98b", false),
     material("GREEN_GRASS", "#a9cf7d", false),
@@ -91,6 +91,8 @@ pub const MATERIALS: [Material; 16] = [
     material("StonePath", "#cfc6b8", true),
     material("Asphalt", "#bcbcbc", true),
     material("Deck", "#c9a779", true),
+    // Mown, and walked on.
+    material("GrassPath", "#c3dd98", true),
 ];
 
 /// All things.

@@ -1,7 +1,6 @@
 //! The library of grammars: each derives on parks of any shape, with several
 //! seeds, and keeps the laws of a park.
 
-mod laws;
 mod outline;
 
 use park_grammar::geo_types::{Coord, LineString, Polygon};
@@ -107,7 +106,7 @@ fn check(name: &str) {
         for seed in 0..if long { 25 } else { 3 } {
             match derive(&grammar, &outline, seed) {
                 Ok(scene) => {
-                    let found = laws::broken(&outline, &scene);
+                    let found = scene.audit(&outline).violations;
                     broken.extend(found.iter().map(|w| format!("{park}, seed {seed}: {w}")));
                 }
                 Err(error) => broken.push(format!("{park}, seed {seed}: {error}")),
