@@ -20,7 +20,8 @@ impl Run<'_> {
                 .hint("divide first, and put things onto the parts in their own rules"));
         }
         let outputs = outputs(operation);
-        let centre = match outputs.get(2).copied().flatten() {
+        let third = outputs.get(2).copied().flatten();
+        let centre = match third {
             Some(branch) => self.leading_shape(node, &branch.body, places, 0)?,
             None => None,
         };
@@ -44,6 +45,7 @@ impl Run<'_> {
             scope: self.scope(node, places),
             path_width,
             centre,
+            centred: third.is_some_and(|branch| !branch.body.operations.is_empty()),
         })?;
         node.divided = true;
         for (k, output) in partition.outputs.into_iter().enumerate() {

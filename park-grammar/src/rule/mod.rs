@@ -36,6 +36,8 @@ pub(crate) struct Ask<'a, 's> {
     pub(crate) path_width: f64,
     /// The shape of centres, if the grammar gives one.
     pub(crate) centre: Option<Primitive>,
+    /// Whether the grammar says what becomes of centres, whatever their shape.
+    pub(crate) centred: bool,
 }
 
 /// One of the outputs of a partition, in the order of the blocks.
