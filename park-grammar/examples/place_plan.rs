@@ -16,7 +16,7 @@ Region -> Lawn
     ScatterCircles(4 {[3-5]}, gap = 4, margin = 5, least = 0) { FlowerBed Distribute(ALL: 0.6, 1.2) { Flowers } Place(CENTRE) { Statue } }
     Sweep(Part(WEST or SOUTH, [0.05, 0.95]): 0.5) { Hedge }
     Distribute(NORTH: 3, 8) { 2: TallTree | SmallTree }
-    Distribute(EAST: 3, 6, MIDDLES) { Conifer }
+    Distribute(EAST: 3, 6, Middles) { Conifer }
     Place(CORNER[0], CORNER[2], offset = 9) { Oak }
     Scatter(density = 0.15, margin = 3) { 3: Tree | 2: SmallTree | 2: Bush | Oak }
     Distribute(Continuous(SOUTH): 2.5, 12) { Lamp }

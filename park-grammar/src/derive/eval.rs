@@ -116,6 +116,19 @@ impl Scope<'_> {
         Ok(Value::Word(name.to_owned()))
     }
 
+    /// The word that an expression is, if it is one; nothing is evaluated, so
+    /// that flags may be looked for among values that are drawn by chance.
+    pub(crate) fn word<'e>(&'e self, expr: &'e Expr) -> Option<&'e str> {
+        let ExprKind::Name(name) = &expr.kind else {
+            return None;
+        };
+        match self.places.get(name).or_else(|| self.params.get(name)) {
+            Some(Value::Word(word)) => Some(word),
+            Some(_) => None,
+            None => Some(name),
+        }
+    }
+
     fn call(&mut self, name: &Name, arguments: &[Argument], blocks: &[Block]) -> Found {
         if let Some(function) = self.grammar.function(&name.text) {
             let places = self.bind(name.span, &function.places, arguments)?;

@@ -1,5 +1,5 @@
 //! `Place(CENTRE) { Tree }`, `Place((0.8, 0.1), CORNER[0]) { Circle(1) Tree }`,
-//! `Place(OUTER: 0.25, facing = IN) { Bench }`: something at places of the region.
+//! `Place(OUTER: 0.25, facing = in) { Bench }`: something at places of the region.
 //!
 //! Places are `CENTRE` (the centre of mass, or if that lies outside the point
 //! with the most room), points in local coordinates, corners, places that other

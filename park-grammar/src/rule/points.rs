@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use geo_types::Coord;
 
-use super::{circles, operator_named, Arguments, Deed};
+use super::{circles, mode, operator_named, Arguments, Deed};
 use crate::derive::{Node, Places, Run, Scope, Spot, Value};
 use crate::error::Failure;
 use crate::plane::{middle, right, unit};
@@ -283,7 +283,16 @@ fn collect(
     Ok(())
 }
 
-/// Which way things face: `facing = IN`, `OUT`, `ALONG`, `CENTRE`, `RANDOM` or an
+/// What the words of `facing =` mean.
+const FACING: [(&str, Facing); 5] = [
+    ("in", Facing::Own),
+    ("out", Facing::Out),
+    ("along", Facing::Along),
+    ("centre", Facing::Centre),
+    ("random", Facing::Random),
+];
+
+/// Which way things face: `facing = in`, `out`, `along`, `centre`, `random` or an
 /// angle from the region's own east.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Facing {
@@ -305,15 +314,8 @@ impl Facing {
         let Some(expr) = arguments.named("facing") else {
             return Ok(Self::Own);
         };
-        if let ExprKind::Name(word) = &expr.kind {
-            match word.as_str() {
-                "IN" => return Ok(Self::Own),
-                "OUT" => return Ok(Self::Out),
-                "ALONG" => return Ok(Self::Along),
-                "CENTRE" => return Ok(Self::Centre),
-                "RANDOM" => return Ok(Self::Random),
-                _ => {}
-            }
+        if scope.word(expr).is_some() {
+            return mode(scope, expr, "facing", &FACING);
         }
         let number = scope.number(expr)?;
         let wrong = || Failure::fault(expr.span, "a direction was expected");
