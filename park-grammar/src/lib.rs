@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+pub mod audit;
 mod derive;
 mod error;
 mod grammar;
@@ -15,6 +16,7 @@ pub mod syntax;
 
 pub use geo_types;
 
+pub use audit::Audit;
 pub use derive::DeriveOptions;
 pub use error::ParkError;
 pub use grammar::{Grammar, Loader};
