@@ -177,6 +177,7 @@ pub(crate) const WORDS: &[&str] = &[
     // Places, and what edges are to the rules that made them.
     "AREA",
     "CENTRE",
+    "POLE",
     "BASE",
     "FLANK",
     "SEGMENT",
