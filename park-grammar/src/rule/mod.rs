@@ -12,6 +12,7 @@ pub(crate) mod place;
 pub(crate) mod points;
 pub(crate) mod primitive;
 mod scatter;
+pub(crate) mod smoothing;
 mod sweep;
 mod target;
 
@@ -143,6 +144,11 @@ pub(crate) const WORDS: &[&str] = &[
     "mirror",
     "pair",
     "extended",
+    // Smoothing of borders.
+    "none",
+    "average",
+    "chaikin",
+    "round",
     // Placing and selectors.
     "AREA",
     "POISSON",
