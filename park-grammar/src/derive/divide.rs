@@ -95,7 +95,7 @@ impl Run<'_> {
 
 /// The outputs that the blocks of an operation name: the branches of its only
 /// block, or one for each block; `None` for an empty one.
-fn outputs(operation: &Operation) -> Vec<Option<&Branch>> {
+pub(crate) fn outputs(operation: &Operation) -> Vec<Option<&Branch>> {
     match operation.blocks.as_slice() {
         [only] => only.branches.iter().map(Some).collect(),
         blocks => blocks.iter().map(|block| block.branches.first()).collect(),
