@@ -1,8 +1,10 @@
 #![doc = include_str!("../README.md")]
 
+pub mod audit;
 mod derive;
 mod error;
 mod grammar;
+pub mod grammars;
 mod index;
 pub mod library;
 pub mod mesh;
@@ -15,6 +17,7 @@ pub mod syntax;
 
 pub use geo_types;
 
+pub use audit::Audit;
 pub use derive::DeriveOptions;
 pub use error::ParkError;
 pub use grammar::{Grammar, Loader};

@@ -8,6 +8,7 @@
 mod content;
 mod divide;
 mod eval;
+mod math;
 mod node;
 mod object;
 mod options;
@@ -21,6 +22,7 @@ mod walk;
 
 pub(crate) use content::Size;
 pub(crate) use eval::{Places, Scope, ATTRIBUTES};
+pub(crate) use math::NAMES as FUNCTIONS;
 pub(crate) use node::Node;
 pub(crate) use object::{mesh_file, OBJECT};
 pub use options::DeriveOptions;

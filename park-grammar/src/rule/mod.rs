@@ -12,6 +12,7 @@ pub(crate) mod place;
 pub(crate) mod points;
 pub(crate) mod primitive;
 mod scatter;
+pub(crate) mod smoothing;
 mod sweep;
 mod target;
 
@@ -163,6 +164,11 @@ pub(crate) const WORDS: &[&str] = &[
     "mirror",
     "pair",
     "extended",
+    // Smoothing of borders.
+    "none",
+    "average",
+    "chaikin",
+    "round",
     // Modes: which way things face.
     "in",
     "out",
@@ -171,6 +177,7 @@ pub(crate) const WORDS: &[&str] = &[
     // Places, and what edges are to the rules that made them.
     "AREA",
     "CENTRE",
+    "POLE",
     "BASE",
     "FLANK",
     "SEGMENT",

@@ -11,7 +11,7 @@ use geo_types::Coord;
 use super::{circles, mode, operator_named, Arguments, Deed};
 use crate::derive::{Node, Places, Run, Scope, Spot, Value};
 use crate::error::Failure;
-use crate::plane::{middle, right, unit};
+use crate::plane::{middle, pole, right, unit};
 use crate::select::{parametrise, range, Lines, Selection};
 use crate::shape::Region;
 use crate::syntax::ast::{Body, Expr, ExprKind, Operation, Span};
@@ -99,6 +99,8 @@ pub(crate) fn spots(region: &Region, value: Value, span: Span) -> Result<Vec<Spo
     };
     Ok(match value {
         Value::Word(word) if word == "CENTRE" => vec![spot(middle(&region.area))],
+        // Where there is the most room, which `room` tells.
+        Value::Word(word) if word == "POLE" => vec![spot(pole(&region.area))],
         // Nothing is drawn where a cell has no such coordinates.
         Value::Point(at) => region.local.point(at).into_iter().map(spot).collect(),
         Value::Spots(spots) => spots,
