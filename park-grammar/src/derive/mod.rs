@@ -30,7 +30,7 @@ use crate::grammar::Grammar;
 use crate::index;
 use crate::library;
 use crate::plane::{difference, intersection, middle, Area};
-use crate::rule::{self, control, operator_named, Ask, Deed, Partition, Primitive};
+use crate::rule::{self, control, holes, operator_named, Ask, Deed, Partition, Primitive};
 use crate::scene::{Ground, Piece, Scene};
 use crate::shape::{Heritage, Region, Role};
 use crate::syntax::ast::{Body, Branch, Operation, Span};
@@ -391,7 +391,8 @@ impl Run<'_> {
         }
         if let Some(operator) = operator_named(name) {
             return match operator.deed {
-                Deed::Divide(divide) => self.divide(node, operation, places, divide),
+                Deed::Divide(divide) => self.divide(node, operation, places, divide, true),
+                Deed::Part(divide) => self.divide(node, operation, places, divide, false),
                 Deed::Act(act) => act(self, node, operation, places),
                 Deed::Branch => {
                     let chosen = control::branch(operation, &mut self.scope(node, places))?;
@@ -457,6 +458,7 @@ impl Run<'_> {
         operation: &Operation,
         places: &Places,
         divide: fn(&mut Ask<'_, '_>) -> Result<Partition, Failure>,
+        centred: bool,
     ) -> Result<(), Failure> {
         if node.divided || !node.carved.is_empty() || !node.standing.is_empty() {
             let error = "this region has been divided already";
@@ -464,7 +466,8 @@ impl Run<'_> {
                 .hint("divide first, and put things onto the parts in their own rules"));
         }
         let outputs = outputs(operation);
-        let centre = match outputs.get(2).copied().flatten() {
+        let third = outputs.get(2).copied().flatten();
+        let centre = match third.filter(|_| centred) {
             Some(branch) => self.leading_shape(node, &branch.body, places, 0)?,
             None => None,
         };
@@ -483,12 +486,15 @@ impl Run<'_> {
                 _ => 2.0,
             }
         };
-        let partition = divide(&mut Ask {
+        let mut partition = divide(&mut Ask {
             operation,
             scope: self.scope(node, places),
             path_width,
             centre,
         })?;
+        if holes::everywhere(&self.params) {
+            holes::split_all(&mut partition.outputs);
+        }
         node.divided = true;
         for (k, output) in partition.outputs.into_iter().enumerate() {
             let branch = outputs.get(k).copied().flatten();
