@@ -21,6 +21,7 @@ mod value;
 mod walk;
 
 pub(crate) use content::Size;
+pub(crate) use divide::outputs;
 pub(crate) use eval::{Places, Scope, ATTRIBUTES};
 pub(crate) use math::NAMES as FUNCTIONS;
 pub(crate) use node::Node;

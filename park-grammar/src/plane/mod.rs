@@ -4,9 +4,11 @@
 //! counter-clockwise, so that the land lies on the right of every edge; rings
 //! are open (the first vertex is not repeated).
 
+mod band;
 mod boolean;
 mod boxes;
 mod climb;
+mod farthest;
 mod inset;
 mod pole;
 mod sample;
@@ -16,12 +18,14 @@ mod stroke;
 
 use geo_types::{Coord, LineString, Polygon};
 
-pub(crate) use boolean::{difference, intersection, union};
+pub(crate) use band::{Band, Bound, Ends};
+pub(crate) use boolean::{difference, intersection, slice, union};
 pub(crate) use boxes::{
     box_along, named_by, oriented_box, quad_angles, quad_area, quad_coordinates, quad_extent,
     quad_is_convex, quad_point,
 };
 pub(crate) use climb::climb;
+pub(crate) use farthest::farthest;
 pub(crate) use inset::{inset_lines, keep_apart, strip, Corner, Segment};
 pub(crate) use pole::{middle, pole};
 pub(crate) use sample::Sampler;
