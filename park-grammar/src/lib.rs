@@ -7,6 +7,7 @@ mod grammar;
 mod index;
 pub mod library;
 pub mod mesh;
+pub mod picture;
 mod plane;
 mod rule;
 pub mod scene;
