@@ -357,6 +357,7 @@ impl Check<'_> {
                 let mut known: Vec<&str> = rule::names().collect();
                 known.extend(self.grammar.functions.keys().map(String::as_str));
                 known.extend(crate::select::CALLS);
+                known.extend(crate::derive::FUNCTIONS);
                 known.push(OBJECT);
                 if !known.contains(&name.text.as_str()) {
                     let error = Diagnostic::new(

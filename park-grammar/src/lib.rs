@@ -4,6 +4,7 @@ pub mod audit;
 mod derive;
 mod error;
 mod grammar;
+pub mod grammars;
 mod index;
 pub mod library;
 pub mod mesh;

@@ -6,11 +6,13 @@ use std::sync::Arc;
 
 use geo_types::Coord;
 
+use super::math;
 use super::object::{declared, OBJECT};
 use super::random::Stream;
 use super::value::{Late, Number, SizeRange, Sizing, Value};
 use crate::error::{Failure, ParkError};
 use crate::grammar::Grammar;
+use crate::plane::{dot, pole};
 use crate::rule::points;
 use crate::select::{named, Selection};
 use crate::shape::Region;
@@ -116,6 +118,19 @@ impl Scope<'_> {
         Ok(Value::Word(name.to_owned()))
     }
 
+    /// The word that an expression is, if it is one; nothing is evaluated, so
+    /// that flags may be looked for among values that are drawn by chance.
+    pub(crate) fn word<'e>(&'e self, expr: &'e Expr) -> Option<&'e str> {
+        let ExprKind::Name(name) = &expr.kind else {
+            return None;
+        };
+        match self.places.get(name).or_else(|| self.params.get(name)) {
+            Some(Value::Word(word)) => Some(word),
+            Some(_) => None,
+            None => Some(name),
+        }
+    }
+
     fn call(&mut self, name: &Name, arguments: &[Argument], blocks: &[Block]) -> Found {
         if let Some(function) = self.grammar.function(&name.text) {
             let places = self.bind(name.span, &function.places, arguments)?;
@@ -126,6 +141,9 @@ impl Scope<'_> {
         }
         if name.text == OBJECT {
             return declared(self, name, arguments);
+        }
+        if let Some(value) = math::call(self, name, arguments)? {
+            return Ok(value);
         }
         crate::select::call(self, name, arguments, blocks)
     }
@@ -409,8 +427,9 @@ impl Scope<'_> {
     }
 }
 
-fn arithmetic(op: BinaryOp, a: Number, b: Number, span: Span) -> Found {
-    // What has no unit takes the other's; others are brought to metres or radians.
+/// Two numbers in a common unit: what has no unit takes the other's; others are
+/// brought to metres or radians.
+pub(super) fn compared(a: Number, b: Number, span: Span) -> Result<(f64, f64, Unit), Failure> {
     let common = if a.unit == b.unit || b.unit == Unit::None {
         Some((a.value, b.value, a.unit))
     } else if a.unit == Unit::None {
@@ -422,14 +441,18 @@ fn arithmetic(op: BinaryOp, a: Number, b: Number, span: Span) -> Found {
         let both = a.metres().zip(b.metres());
         both.map(|(x, y)| (x, y, Unit::Metres))
     };
-    let Some((x, y, unit)) = common else {
+    common.ok_or_else(|| {
         let error = format!(
             "{} and {} do not go together",
             a.unit.as_str(),
             b.unit.as_str()
         );
-        return Err(Failure::fault(span, error));
-    };
+        Failure::fault(span, error)
+    })
+}
+
+fn arithmetic(op: BinaryOp, a: Number, b: Number, span: Span) -> Found {
+    let (x, y, unit) = compared(a, b, span)?;
     let number = |value: f64| {
         if value.is_finite() {
             Ok(Value::Number(Number { value, unit }))
@@ -455,11 +478,14 @@ fn arithmetic(op: BinaryOp, a: Number, b: Number, span: Span) -> Found {
 }
 
 /// The names of attributes, for hints.
-pub(crate) const ATTRIBUTES: [&str; 13] = [
+pub(crate) const ATTRIBUTES: [&str; 16] = [
     "area",
     "perimeter",
     "width",
     "height",
+    "extent_x",
+    "extent_y",
+    "room",
     "sides",
     "depth",
     "convex",
@@ -486,6 +512,10 @@ fn attribute(region: &Region, name: &str) -> Option<Value> {
         "perimeter" => metres(Selection::all(region).length()),
         "width" => metres(high.x - low.x),
         "height" => metres(high.y - low.y),
+        "extent_x" => metres(own_extent(region, 0)),
+        "extent_y" => metres(own_extent(region, 1)),
+        // Radius of the largest circle that it holds.
+        "room" => metres(region.area.nearest(pole(&region.area)).1),
         "sides" => Number::plain(region.sides as f64),
         "depth" => Number::plain(region.depth as f64),
         "holes" => Number::plain(region.area.holes.len() as f64),
@@ -497,6 +527,18 @@ fn attribute(region: &Region, name: &str) -> Option<Value> {
         "convex" => return Some(Value::Bool(convex(region))),
         _ => return None,
     }))
+}
+
+/// How far a region reaches along one of its own axes, those that a grid follows.
+fn own_extent(region: &Region, axis: usize) -> f64 {
+    let along = region.local.axes()[axis];
+    let ends = |(low, high): (f64, f64), &p: &Coord<f64>| {
+        let at = dot(along, p);
+        (low.min(at), high.max(at))
+    };
+    let none = (f64::INFINITY, f64::NEG_INFINITY);
+    let (low, high) = region.area.outer.iter().fold(none, ends);
+    high - low
 }
 
 fn convex(region: &Region) -> bool {

@@ -10,6 +10,7 @@ mod climb;
 mod inset;
 mod pole;
 mod sample;
+mod smooth;
 mod split;
 mod stroke;
 
@@ -24,6 +25,7 @@ pub(crate) use climb::climb;
 pub(crate) use inset::{inset_lines, keep_apart, strip, Corner, Segment};
 pub(crate) use pole::{middle, pole};
 pub(crate) use sample::Sampler;
+pub(crate) use smooth::{smooth, Smoothing};
 pub(crate) use split::{clipped, split, Line};
 pub(crate) use stroke::{circle, stroke};
 

@@ -11,7 +11,7 @@
 //! both 0 but for touching), `least`, the number of circles below which the
 //! operation does not suit the region (1). Large circles are put first; one that
 //! has no room anywhere is tried with the smallest radius of its range, and then
-//! left out. The flag `POISSON` spreads a given number evenly: a full pattern is
+//! left out. The flag `Poisson` spreads a given number evenly: a full pattern is
 //! made, and so many of it chosen.
 
 use geo_types::Coord;
@@ -43,7 +43,7 @@ struct Plan {
 impl Plan {
     fn read(scope: &mut Scope<'_>, operation: &Operation) -> Result<Self, Failure> {
         let mut arguments = Arguments::new(operation);
-        let even = arguments.flag(scope, "POISSON")?;
+        let even = arguments.flag(scope, "Poisson")?;
         let (mut count, mut sizes) = (None, Vec::new());
         if let Some(argument) = arguments.next() {
             let span = argument.value.span;

@@ -12,6 +12,7 @@ pub(crate) mod place;
 pub(crate) mod points;
 pub(crate) mod primitive;
 mod scatter;
+pub(crate) mod smoothing;
 mod sweep;
 mod target;
 
@@ -22,7 +23,7 @@ use crate::scene::Ground;
 use crate::shape::Region;
 use crate::syntax::ast::Operation;
 
-pub(crate) use arguments::Arguments;
+pub(crate) use arguments::{mode, Arguments};
 pub(crate) use primitive::Primitive;
 
 /// What a partition rule is asked.
@@ -36,6 +37,8 @@ pub(crate) struct Ask<'a, 's> {
     pub(crate) path_width: f64,
     /// The shape of centres, if the grammar gives one.
     pub(crate) centre: Option<Primitive>,
+    /// Whether the grammar says what becomes of centres, whatever their shape.
+    pub(crate) centred: bool,
 }
 
 /// One of the outputs of a partition, in the order of the blocks.
@@ -121,12 +124,29 @@ pub(crate) const OPERATORS: &[Operator] = &[
     operator("Parametrise", Deed::Points),
 ];
 
-/// Words that mean something as an argument of some operation: flags and modes.
+/// Words that mean something as an argument of some operation; how they are
+/// written tells flags, modes and places apart: see [`arguments`].
 pub(crate) const WORDS: &[&str] = &[
-    "CENTRE",
-    // Grid and FitRectangle.
+    // Flags of operations.
     "Exact",
     "Apart",
+    "Poisson",
+    "Middles",
+    "Through",
+    "Mitre",
+    // Flags of selectors.
+    "Line",
+    "Compass",
+    "Leave",
+    "Rest",
+    "Corners",
+    "Angle",
+    "Sector",
+    "Grow",
+    "Dominant",
+    "Northern",
+    "Split",
+    // Modes: ways to fit.
     "own",
     "oriented",
     "bounding",
@@ -136,6 +156,7 @@ pub(crate) const WORDS: &[&str] = &[
     "indexed",
     "meeting",
     "blend",
+    // Modes: symmetry.
     "centre",
     "left",
     "right",
@@ -143,34 +164,36 @@ pub(crate) const WORDS: &[&str] = &[
     "mirror",
     "pair",
     "extended",
-    // Placing and selectors.
+    // Smoothing of borders.
+    "none",
+    "average",
+    "chaikin",
+    "round",
+    // Modes: which way things face.
+    "in",
+    "out",
+    "along",
+    "random",
+    // Places, and what edges are to the rules that made them.
     "AREA",
-    "POISSON",
-    "MIDDLES",
-    "EXACT",
-    "THROUGH",
-    "MITRE",
-    "IN",
-    "OUT",
-    "ALONG",
-    "RANDOM",
-    "LINE",
-    "COMPASS",
-    "LEAVE",
-    "REST",
-    "CORNERS",
-    "ANGLE",
-    "SECTOR",
-    "GROW",
-    "DOMINANT",
-    "NORTHERN",
-    "SPLIT",
+    "CENTRE",
+    "POLE",
     "BASE",
     "FLANK",
     "SEGMENT",
     "SEAM",
     "ANY",
 ];
+
+/// The word that this one is but for the case of its letters.
+pub(crate) fn in_other_case(word: &str) -> Option<&'static str> {
+    let all = WORDS.iter().chain(&crate::select::NAMES).copied();
+    let same = |known: &&str| *known != word && known.eq_ignore_ascii_case(word);
+    all.filter(same).max_by_key(|known| {
+        // A place or selector is asked for more often than a mode.
+        known.chars().filter(|c| c.is_uppercase()).count()
+    })
+}
 
 pub(crate) fn operator_named(name: &str) -> Option<&'static Operator> {
     OPERATORS.iter().find(|o| o.name == name)
@@ -184,4 +207,21 @@ pub(crate) fn names() -> impl Iterator<Item = &'static str> {
         .chain(materials)
         .chain(library::THINGS.iter().map(|t| t.name))
         .chain(library::BARRIERS.iter().map(|b| b.name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Flags are capitalised words, modes are in lower case, places in capitals.
+    #[test]
+    fn words_tell_what_they_are() {
+        for word in WORDS {
+            let capitals = word.chars().filter(|c| c.is_uppercase()).count();
+            let letters = word.chars().filter(|c| c.is_alphabetic()).count();
+            let first = word.starts_with(char::is_uppercase);
+            let flag = first && capitals < letters && !word.contains('_');
+            assert!(flag || capitals == 0 || capitals == letters, "{word}");
+        }
+    }
 }

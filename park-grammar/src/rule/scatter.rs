@@ -5,7 +5,7 @@
 //! kinds, chosen by seed with the weights before their colons. Things keep apart
 //! by their `room`, a radius that is the spread of the thing unless given, so
 //! that crowns do not meet, and stay clear of what was put before. `margin` is
-//! kept between footprints and the boundary. With `POISSON` the region is filled
+//! kept between footprints and the boundary. With `Poisson` the region is filled
 //! as densely as the rooms allow (Poisson-disc sampling), or so many of such a
 //! pattern are chosen. What finds no room is left out, and counted; after 30 in a row that
 //! find none the rest is.
@@ -36,7 +36,7 @@ pub(crate) fn scatter(
     let kinds = kinds(run, node, operation, places)?;
     let mut scope = run.scope(node, places);
     let mut arguments = Arguments::new(operation);
-    let full = arguments.flag(&mut scope, "POISSON")?;
+    let full = arguments.flag(&mut scope, "Poisson")?;
     let mut count = match arguments.next() {
         Some(argument) => Some(scope.count(&argument.value)?),
         None => None,
@@ -50,7 +50,7 @@ pub(crate) fn scatter(
     arguments.done()?;
     if count.is_none() && !full {
         let failure = Failure::fault(operation.span, "how many things?");
-        return Err(failure.hint("write Scatter(12), Scatter(density = 2) or Scatter(POISSON)"));
+        return Err(failure.hint("write Scatter(12), Scatter(density = 2) or Scatter(Poisson)"));
     }
     let before = run.tally();
     let sampler = Sampler::new(&node.region.area);

@@ -6,7 +6,7 @@
 //! region. The second, or `width`, and the third, or `height`, are those of the
 //! barrier unless said. Along a selection the strip lies on the inner side of its
 //! offset, along a line half on each side. Strips go round outer corners in an
-//! arc, with `MITRE` in a point of at most four widths. They are clipped to the
+//! arc, with `Mitre` in a point of at most four widths. They are clipped to the
 //! region and leave out what was cut from it or stands on it. Of several
 //! branches each line has the next.
 
@@ -46,7 +46,7 @@ pub(crate) fn sweep(
     let mut scope = run.scope(node, places);
     let mut arguments = Arguments::new(operation);
     let (target, offset) = Target::read(&mut arguments, &mut scope)?;
-    let mitre = arguments.flag(&mut scope, "MITRE")?;
+    let mitre = arguments.flag(&mut scope, "Mitre")?;
     let mut sizes = [None; 2];
     for (size, name) in sizes.iter_mut().zip(["width", "height"]) {
         *size = match arguments.next() {

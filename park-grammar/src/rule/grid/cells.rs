@@ -91,16 +91,55 @@ impl Lattice {
         (within, rest)
     }
 
+    /// The lines that meet inside the areas, and where.
+    fn meetings(&self, inside: &[Area]) -> Vec<(&Line, &Line, Coord<f64>)> {
+        let mut found = Vec::new();
+        for column in &self.lines[0] {
+            let crossings = self.lines[1].iter();
+            let crossings = crossings.filter_map(|row| Some((column, row, column.meets(row)?)));
+            found.extend(crossings.filter(|(_, _, at)| inside.iter().any(|a| a.contains(*at))));
+        }
+        found
+    }
+
     /// The shape at each crossing inside the areas; whole ones, which may go on
     /// beyond and overlap.
     pub(super) fn whole_centres(&self, inside: &[Area], shape: Primitive) -> Vec<Area> {
-        let mut found = Vec::new();
-        for column in &self.lines[0] {
-            let crossings = self.lines[1].iter().filter_map(|row| column.meets(row));
-            let within = crossings.filter(|&at| inside.iter().any(|area| area.contains(at)));
-            found.extend(within.map(|at| self.placed(shape, at)));
-        }
-        found
+        let meetings = self.meetings(inside).into_iter();
+        meetings.map(|(_, _, at)| self.placed(shape, at)).collect()
+    }
+
+    /// What both paths cover at each crossing inside the areas; whole quads, which
+    /// may go on beyond. Their corners are vertices of the paths, to the last
+    /// digit, so that no hair joins the arms around a corner.
+    pub(super) fn crossings(&self, inside: &[Area], paths: &[Area]) -> Vec<Area> {
+        let mut vertices: Vec<Coord<f64>> = paths
+            .iter()
+            .flat_map(Area::rings)
+            .flatten()
+            .copied()
+            .collect();
+        vertices.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+        let on = ON * self.size;
+        let vertex = |p: Coord<f64>| {
+            let first = vertices.partition_point(|v| v.x < p.x - on);
+            let near = vertices[first..].iter().take_while(|v| v.x <= p.x + on);
+            let nearest = near.min_by(|a, b| dist(**a, p).total_cmp(&dist(**b, p)));
+            nearest.filter(|v| dist(**v, p) <= on).copied().unwrap_or(p)
+        };
+        let sides = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)];
+        let quad = |column: &Line, row: &Line| -> Option<Area> {
+            let corner = |(x, y): (f64, f64)| {
+                let met = column.moved(x * self.half).meets(&row.moved(y * self.half));
+                met.map(vertex)
+            };
+            let ring: Option<Vec<Coord<f64>>> = sides.into_iter().map(corner).collect();
+            Some(Area::new(ring?, Vec::new()))
+        };
+        let meetings = self.meetings(inside).into_iter();
+        meetings
+            .filter_map(|(column, row, _)| quad(column, row))
+            .collect()
     }
 
     /// A shape whose upright is that of the grid, mirrored with it.

@@ -24,8 +24,10 @@
 //! difference of the region and all else, so that nothing is lost.
 //!
 //! A centre is the shape that the third block begins with, at each crossing of
-//! lines inside the region, as far as it lies in the region. Without a shape
-//! crossings are part of the paths.
+//! lines inside the region, as far as it lies in the region. A third block that
+//! begins with no shape is done on the crossings themselves: the quads that both
+//! paths cover, cut out of the paths. Without a third block, or with an empty one,
+//! crossings are part of the paths, the notes' "normal regular crossroads".
 //!
 //! How cells that are mirror images stand to each other is the matter of
 //! [`symmetry`].
@@ -114,13 +116,18 @@ pub(crate) fn grid(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     };
     let shape = ask.centre;
     let whole = shape.map_or_else(Vec::new, |shape| lattice.whole_centres(&inside, shape));
-    let centres = cells::clipped_centres(&whole, &inside);
+    let mut centres = cells::clipped_centres(&whole, &inside);
     let cells = lattice.cells(&inside);
-    let paths = if width > 0.0 {
+    let mut paths = if width > 0.0 {
         difference(&inside, &lattice.beside(&inside, &whole))
     } else {
         Vec::new()
     };
+    if shape.is_none() && ask.centred {
+        let crossings = lattice.crossings(&inside, &paths);
+        centres = intersection(&crossings, &paths);
+        paths = difference(&paths, &crossings);
+    }
     let mut cells = cells::without(cells, &whole);
     let least = SLIVER * region.area.size();
     cells.retain(|cell| cell.area.size() > least);

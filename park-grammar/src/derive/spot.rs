@@ -1,0 +1,111 @@
+//! What is done at places of a region: things put there, and shapes cut out.
+
+use std::slice::from_ref;
+
+use super::{clear, Node, Places, Run, Spot};
+use crate::error::Failure;
+use crate::index;
+use crate::plane::{difference, intersection, Area};
+use crate::rule::{control, operator_named, Deed, Primitive};
+use crate::shape::{Heritage, Role};
+use crate::syntax::ast::{Operation, Span};
+
+impl Run<'_> {
+    /// Cuts a shape out of a region, and does the rest on what was cut out.
+    pub(crate) fn carve(
+        &mut self,
+        node: &mut Node,
+        span: Span,
+        primitive: Primitive,
+        spot: Spot,
+        rest: &[Operation],
+        places: &Places,
+    ) -> Result<(), Failure> {
+        if node.divided {
+            return Err(Failure::fault(span, "this region has been divided already"));
+        }
+        let ring = primitive.ring(spot.at, spot.facing);
+        let shape = Area::new(ring, Vec::new());
+        let free = difference(from_ref(&node.region.area), &node.carved);
+        let mut found = intersection(from_ref(&shape), &free);
+        let whole: f64 = found.iter().map(Area::size).sum();
+        let taken = node.standing.discs().iter();
+        let taken = taken.map(|disc| (disc.at, disc.radius));
+        let taken = taken
+            .into_iter()
+            .any(|(at, radius)| !clear(&shape, at, radius))
+            || !intersection(std::slice::from_ref(&shape), &node.standing.built).is_empty();
+        if taken || (whole - shape.size()).abs() > 1e-6 * shape.size() || found.len() != 1 {
+            return Err(Failure::unfit(span, "there is no room for this shape"));
+        }
+        let Some(area) = found.pop() else {
+            return Ok(());
+        };
+        let local = crate::shape::Local::upright(&area.outer);
+        let heritage = Heritage::new(&node.region, "Shape");
+        let mut region = heritage.piece(area.clone(), local, |_, _| Some(Role::Centre));
+        index::by_local(&mut region);
+        node.carved.push(area);
+        let mut child = node.child(region);
+        self.deeper(&mut child, |run, child| run.body(child, rest, places))?;
+        self.finish(&mut child)
+    }
+
+    /// Does the operations of the blocks at each of some places of a region.
+    pub(crate) fn at_spots(
+        &mut self,
+        node: &mut Node,
+        operation: &Operation,
+        places: &Places,
+        spots: &[Spot],
+    ) -> Result<(), Failure> {
+        let branches = || operation.blocks.iter().flat_map(|b| &b.branches);
+        for &spot in spots {
+            for branch in branches() {
+                self.at_spot(node, &branch.body.operations, places, spot)?;
+            }
+        }
+        Ok(())
+    }
+
+    pub(crate) fn at_spot(
+        &mut self,
+        node: &mut Node,
+        body: &[Operation],
+        places: &Places,
+        spot: Spot,
+    ) -> Result<(), Failure> {
+        for (k, operation) in body.iter().enumerate() {
+            self.count()?;
+            let name = operation.name.text.as_str();
+            let grammar = self.grammar;
+            if let Some(rule) = grammar.rule(name) {
+                let bound = self.bound(node, operation, &rule.places, places)?;
+                self.deeper(node, |run, node| {
+                    run.at_spot(node, &rule.body.operations, &bound, spot)
+                })?;
+                continue;
+            }
+            match operator_named(name).map(|o| o.deed) {
+                Some(Deed::Shape) => {
+                    let primitive = Primitive::read(operation, &mut self.scope(node, places))?;
+                    let rest = &body[k + 1..];
+                    return self.carve(node, operation.span, primitive, spot, rest, places);
+                }
+                Some(Deed::Branch) => {
+                    let chosen = control::branch(operation, &mut self.scope(node, places))?;
+                    if let Some(branch) = chosen {
+                        self.at_spot(node, &branch.body.operations, places, spot)?;
+                    }
+                }
+                Some(_) => {
+                    let error = format!("{name} needs a region, and here is a place");
+                    return Err(Failure::fault(operation.span, error)
+                        .hint("begin with a shape, such as Circle(1)"));
+                }
+                None => self.thing(node, operation, places, spot)?,
+            }
+        }
+        Ok(())
+    }
+}

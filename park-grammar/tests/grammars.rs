@@ -1,0 +1,168 @@
+//! The library of grammars: each derives on parks of any shape, with several
+//! seeds, and keeps the laws of a park.
+
+mod laws;
+mod outline;
+
+use park_grammar::geo_types::{Coord, LineString, Polygon};
+use park_grammar::{grammars, DeriveOptions, Grammar, Scene};
+
+/// A park, by its corners in metres.
+fn park(points: &[(f64, f64)], hole: &[(f64, f64)]) -> Polygon<f64> {
+    let ring = |points: &[(f64, f64)]| -> LineString<f64> {
+        points.iter().map(|&(x, y)| Coord { x, y }).collect()
+    };
+    let holes = (!hole.is_empty()).then(|| ring(hole));
+    Polygon::new(ring(points), holes.into_iter().collect())
+}
+
+fn parks() -> Vec<(String, Polygon<f64>)> {
+    let all = shapes();
+    all.into_iter().map(|(name, park)| (name.to_owned(), park)).collect()
+}
+
+/// The parks of a folder of GeoJSON files that `URBAN_LAYOUT_PARKS` names.
+fn more() -> Vec<(String, Polygon<f64>)> {
+    let Some(folder) = std::env::var_os("URBAN_LAYOUT_PARKS") else {
+        return Vec::new();
+    };
+    let files = std::fs::read_dir(folder).expect("a folder");
+    let mut files: Vec<_> = files.map(|file| file.expect("a file").path()).collect();
+    files.sort();
+    let read = |path: std::path::PathBuf| {
+        let text = std::fs::read_to_string(&path).expect("a text");
+        let park = outline::outline(&text).expect("a park");
+        (path.file_stem().map_or_else(String::new, |s| s.display().to_string()), park)
+    };
+    files.into_iter().map(read).collect()
+}
+
+/// Parks as they are: narrow, bent, with a bay, with a building in them.
+fn shapes() -> Vec<(&'static str, Polygon<f64>)> {
+    vec![
+        ("square", park(&[(0., 0.), (60., 0.), (60., 60.), (0., 60.)], &[])),
+        ("strip", park(&[(0., 0.), (250., 40.), (247., 55.), (-2., 13.)], &[])),
+        (
+            "block",
+            park(
+                &[(3., -8.), (118., 4.), (127., 71.), (104., 96.), (22., 103.), (-6., 61.)],
+                &[],
+            ),
+        ),
+        (
+            "bend",
+            park(
+                &[
+                    (0., 0.), (140., 10.), (150., 60.), (75., 52.), (62., 70.), (70., 160.),
+                    (8., 168.), (-14., 90.),
+                ],
+                &[],
+            ),
+        ),
+        (
+            "bay",
+            park(
+                &[
+                    (0., 0.), (210., -12.), (230., 120.), (150., 131.), (141., 60.), (118., 41.),
+                    (92., 49.), (87., 140.), (12., 128.),
+                ],
+                &[],
+            ),
+        ),
+        (
+            "house",
+            park(
+                &[(-4., 0.), (170., 22.), (181., 90.), (160., 155.), (60., 170.), (0., 120.)],
+                &[(70., 70.), (104., 74.), (101., 99.), (67., 95.)],
+            ),
+        ),
+        ("triangle", park(&[(0., 0.), (90., 14.), (30., 75.)], &[])),
+        (
+            "hourglass",
+            park(
+                &[
+                    (0., 0.), (80., 5.), (64., 50.), (70., 62.), (120., 110.), (40., 140.),
+                    (-20., 95.), (43., 60.), (44., 48.),
+                ],
+                &[],
+            ),
+        ),
+    ]
+}
+
+fn derive(grammar: &Grammar, park: &Polygon<f64>, seed: u64) -> Result<Scene, String> {
+    let options = DeriveOptions {
+        seed,
+        ..DeriveOptions::default()
+    };
+    grammar.derive(park, &options).map_err(|e| e.to_string())
+}
+
+fn check(name: &str) {
+    let known = grammars::named(name).expect("in the library");
+    let grammar = known.grammar().expect("reads");
+    let long = std::env::var_os("URBAN_LAYOUT_LONG").is_some();
+    let mut broken = Vec::new();
+    for (park, outline) in parks().into_iter().chain(more()) {
+        for seed in 0..if long { 25 } else { 3 } {
+            match derive(&grammar, &outline, seed) {
+                Ok(scene) => {
+                    let found = laws::broken(&outline, &scene);
+                    broken.extend(found.iter().map(|w| format!("{park}, seed {seed}: {w}")));
+                }
+                Err(error) => broken.push(format!("{park}, seed {seed}: {error}")),
+            }
+        }
+    }
+    assert!(broken.is_empty(), "{name}\n{}", broken.join("\n"));
+}
+
+#[test]
+fn simple_square() {
+    check("simple_square");
+}
+
+#[test]
+fn circular_paths() {
+    check("circular_paths");
+}
+
+#[test]
+fn free_form() {
+    check("free_form");
+}
+
+#[test]
+fn nested_grids() {
+    check("nested_grids");
+}
+
+#[test]
+fn irregular_grid() {
+    check("irregular_grid");
+}
+
+#[test]
+fn beam_park() {
+    check("beam_park");
+}
+
+#[test]
+fn pocket_park() {
+    check("pocket_park");
+}
+
+#[test]
+fn woodland() {
+    check("woodland");
+}
+
+#[test]
+fn formal_garden() {
+    check("formal_garden");
+}
+
+#[test]
+fn allotments() {
+    check("allotments");
+}
