@@ -68,7 +68,7 @@ pub(crate) fn strip(line: &[Coord<f64>], width: f64, corner: Corner) -> Vec<Area
 
 /// The land beside a vertex between the ends of two quadrangles: with their
 /// corners to the last digit, so that no slit is left.
-fn wedge(
+pub(super) fn wedge(
     at: Coord<f64>,
     [from, to]: [Coord<f64>; 2],
     turn: f64,

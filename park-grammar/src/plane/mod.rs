@@ -4,10 +4,12 @@
 //! counter-clockwise, so that the land lies on the right of every edge; rings
 //! are open (the first vertex is not repeated).
 
+mod band;
 mod boolean;
 mod boxes;
 mod climb;
 mod erode;
+mod farthest;
 mod inset;
 mod pole;
 mod rest;
@@ -20,13 +22,15 @@ mod weld;
 
 use geo_types::{Coord, LineString, Polygon};
 
-pub(crate) use boolean::{difference, intersection, union};
+pub(crate) use band::{Band, Bound, Ends};
+pub(crate) use boolean::{difference, intersection, slice, union};
 pub(crate) use boxes::{
     box_along, named_by, oriented_box, quad_angles, quad_area, quad_coordinates, quad_extent,
     quad_is_convex, quad_point,
 };
 pub(crate) use climb::climb;
 pub(crate) use erode::erode;
+pub(crate) use farthest::farthest;
 pub(crate) use inset::{inset_lines, keep_apart, strip, Corner, Segment};
 pub(crate) use pole::{middle, pole};
 pub(crate) use rest::rest;

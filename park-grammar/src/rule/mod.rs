@@ -8,6 +8,8 @@ mod distribute;
 mod fit;
 mod fit_rectangle;
 mod grid;
+pub(crate) mod holes;
+mod peel;
 pub(crate) mod place;
 pub(crate) mod points;
 pub(crate) mod primitive;
@@ -85,6 +87,8 @@ type Act = fn(&mut Run<'_>, &mut Node, &Operation, &Places) -> Result<(), Failur
 pub(crate) enum Deed {
     /// Divides the region into the outputs of its blocks.
     Divide(Divide),
+    /// The same, where the third output is no centre.
+    Part(Divide),
     /// Puts things on the region, or sets what it is.
     Act(Act),
     /// Cuts a shape out of the region, and goes on with that.
@@ -118,6 +122,8 @@ pub(crate) const OPERATORS: &[Operator] = &[
     operator("FitRectangle", Deed::Divide(fit_rectangle::fit_rectangle)),
     operator("VoronoiRegions", Deed::Divide(voronoi::voronoi)),
     operator("VoronoiSmoothed", Deed::Divide(voronoi::voronoi)),
+    operator("Peel", Deed::Part(peel::peel)),
+    operator("SplitHoles", Deed::Part(holes::split_holes)),
     operator("Place", Deed::Act(place::place)),
     operator("Scatter", Deed::Act(scatter::scatter)),
     operator("Distribute", Deed::Act(distribute::distribute)),
@@ -169,6 +175,9 @@ pub(crate) const WORDS: &[&str] = &[
     "mirror",
     "pair",
     "extended",
+    // Peel and others.
+    "CornersOrthogonal",
+    "SplitHoles",
     // Smoothing of borders.
     "none",
     "average",
