@@ -1,10 +1,10 @@
 //! The library of grammars: each derives on parks of any shape, with several
 //! seeds, and keeps the laws of a park.
 
-mod laws;
 mod outline;
 
 use park_grammar::geo_types::{Coord, LineString, Polygon};
+use park_grammar::scene::Piece;
 use park_grammar::{grammars, DeriveOptions, Grammar, Scene};
 
 /// A park, by its corners in metres.
@@ -18,7 +18,9 @@ fn park(points: &[(f64, f64)], hole: &[(f64, f64)]) -> Polygon<f64> {
 
 fn parks() -> Vec<(String, Polygon<f64>)> {
     let all = shapes();
-    all.into_iter().map(|(name, park)| (name.to_owned(), park)).collect()
+    all.into_iter()
+        .map(|(name, park)| (name.to_owned(), park))
+        .collect()
 }
 
 /// The parks of a folder of GeoJSON files that `URBAN_LAYOUT_PARKS` names.
@@ -32,7 +34,11 @@ fn more() -> Vec<(String, Polygon<f64>)> {
     let read = |path: std::path::PathBuf| {
         let text = std::fs::read_to_string(&path).expect("a text");
         let park = outline::outline(&text).expect("a park");
-        (path.file_stem().map_or_else(String::new, |s| s.display().to_string()), park)
+        (
+            path.file_stem()
+                .map_or_else(String::new, |s| s.display().to_string()),
+            park,
+        )
     };
     files.into_iter().map(read).collect()
 }
@@ -40,12 +46,25 @@ fn more() -> Vec<(String, Polygon<f64>)> {
 /// Parks as they are: narrow, bent, with a bay, with a building in them.
 fn shapes() -> Vec<(&'static str, Polygon<f64>)> {
     vec![
-        ("square", park(&[(0., 0.), (60., 0.), (60., 60.), (0., 60.)], &[])),
-        ("strip", park(&[(0., 0.), (250., 40.), (247., 55.), (-2., 13.)], &[])),
+        (
+            "square",
+            park(&[(0., 0.), (60., 0.), (60., 60.), (0., 60.)], &[]),
+        ),
+        (
+            "strip",
+            park(&[(0., 0.), (250., 40.), (247., 55.), (-2., 13.)], &[]),
+        ),
         (
             "block",
             park(
-                &[(3., -8.), (118., 4.), (127., 71.), (104., 96.), (22., 103.), (-6., 61.)],
+                &[
+                    (3., -8.),
+                    (118., 4.),
+                    (127., 71.),
+                    (104., 96.),
+                    (22., 103.),
+                    (-6., 61.),
+                ],
                 &[],
             ),
         ),
@@ -53,8 +72,14 @@ fn shapes() -> Vec<(&'static str, Polygon<f64>)> {
             "bend",
             park(
                 &[
-                    (0., 0.), (140., 10.), (150., 60.), (75., 52.), (62., 70.), (70., 160.),
-                    (8., 168.), (-14., 90.),
+                    (0., 0.),
+                    (140., 10.),
+                    (150., 60.),
+                    (75., 52.),
+                    (62., 70.),
+                    (70., 160.),
+                    (8., 168.),
+                    (-14., 90.),
                 ],
                 &[],
             ),
@@ -63,8 +88,15 @@ fn shapes() -> Vec<(&'static str, Polygon<f64>)> {
             "bay",
             park(
                 &[
-                    (0., 0.), (210., -12.), (230., 120.), (150., 131.), (141., 60.), (118., 41.),
-                    (92., 49.), (87., 140.), (12., 128.),
+                    (0., 0.),
+                    (210., -12.),
+                    (230., 120.),
+                    (150., 131.),
+                    (141., 60.),
+                    (118., 41.),
+                    (92., 49.),
+                    (87., 140.),
+                    (12., 128.),
                 ],
                 &[],
             ),
@@ -72,7 +104,14 @@ fn shapes() -> Vec<(&'static str, Polygon<f64>)> {
         (
             "house",
             park(
-                &[(-4., 0.), (170., 22.), (181., 90.), (160., 155.), (60., 170.), (0., 120.)],
+                &[
+                    (-4., 0.),
+                    (170., 22.),
+                    (181., 90.),
+                    (160., 155.),
+                    (60., 170.),
+                    (0., 120.),
+                ],
                 &[(70., 70.), (104., 74.), (101., 99.), (67., 95.)],
             ),
         ),
@@ -81,8 +120,15 @@ fn shapes() -> Vec<(&'static str, Polygon<f64>)> {
             "hourglass",
             park(
                 &[
-                    (0., 0.), (80., 5.), (64., 50.), (70., 62.), (120., 110.), (40., 140.),
-                    (-20., 95.), (43., 60.), (44., 48.),
+                    (0., 0.),
+                    (80., 5.),
+                    (64., 50.),
+                    (70., 62.),
+                    (120., 110.),
+                    (40., 140.),
+                    (-20., 95.),
+                    (43., 60.),
+                    (44., 48.),
                 ],
                 &[],
             ),
@@ -107,7 +153,7 @@ fn check(name: &str) {
         for seed in 0..if long { 25 } else { 3 } {
             match derive(&grammar, &outline, seed) {
                 Ok(scene) => {
-                    let found = laws::broken(&outline, &scene);
+                    let found = scene.audit(&outline).violations;
                     broken.extend(found.iter().map(|w| format!("{park}, seed {seed}: {w}")));
                 }
                 Err(error) => broken.push(format!("{park}, seed {seed}: {error}")),
@@ -165,4 +211,56 @@ fn formal_garden() {
 #[test]
 fn allotments() {
     check("allotments");
+}
+
+/// The notes' own words, with rules for the names that they leave open. On a
+/// square of 40 m.
+fn notes(rules: &str) -> Scene {
+    let square = park(&[(0., 0.), (40., 0.), (40., 40.), (0., 40.)], &[]);
+    let grammar = Grammar::new(&format!("grammar 1\n{rules}")).expect("reads");
+    let scene = derive(&grammar, &square, 0).expect("derives");
+    let audit = scene.audit(&square);
+    assert!(audit.is_lawful(), "{:?}", audit.violations);
+    scene
+}
+
+fn count(scene: &Scene, material: &str) -> usize {
+    let of = |piece: &&Piece| piece.material == material;
+    scene.pieces.iter().filter(of).count()
+}
+
+#[test]
+fn the_notes_nested_grid() {
+    let scene = notes(
+        "PathWidth = 2
+         Region -> Grid(3 {2, 6, 2} , 2 {6} ) { NestedRegion } { CementPath }
+         NestedRegion -> Grid { TreeRegion } { StonePath }
+         TreeRegion -> GREEN_GRASS Place(CENTRE) { SmallTree }",
+    );
+    // Columns of 7.2, 21.6 and 7.2 m between paths of 2 m, rows of 19 m. Cells of 4 m
+    // with paths of 2 m: (7.2 + 2) / 6 is nearest to 2, (21.6 + 2) / 6 to 4, and
+    // (19 + 2) / 6 is half way from 3 to 4, which is rounded up.
+    assert_eq!(count(&scene, "GREEN_GRASS"), 2 * (2 + 4 + 2) * 4);
+    assert_eq!(count(&scene, "CementPath"), 1);
+    assert_eq!(count(&scene, "StonePath"), 6);
+    assert_eq!(scene.objects.len(), 64);
+}
+
+#[test]
+fn the_notes_irregular_grid() {
+    let scene = notes(
+        "Region -> Grid (3 {[7,15]a[-15,15]}, 2) { NonWalkableRegion }
+         NonWalkableRegion -> Grid (2 {a[-5,5]}, {[1.5,4]a[-25,25]}) { PlantedRegion } {}
+         PlantedRegion -> Choose { GrassRegion, BushRegion, Plant1Region, Plant2Region /*, … */ }
+         GrassRegion -> GREEN_GRASS
+         BushRegion -> ShrubBed
+         Plant1Region -> FlowerBed
+         Plant2Region -> Planting",
+    );
+    // Six cells, each of two columns with several rows.
+    assert_eq!(count(&scene, "Gravel"), 1);
+    let planted = ["GREEN_GRASS", "ShrubBed", "FlowerBed", "Planting"];
+    let planted = planted.map(|material| count(&scene, material));
+    assert!(planted.iter().all(|&n| n > 0), "{planted:?}");
+    assert!(planted.iter().sum::<usize>() >= 6 * 2 * 4, "{planted:?}");
 }

@@ -8,13 +8,17 @@ mod band;
 mod boolean;
 mod boxes;
 mod climb;
+mod erode;
 mod farthest;
 mod inset;
 mod pole;
+mod rest;
 mod sample;
 mod smooth;
 mod split;
 mod stroke;
+mod voronoi;
+mod weld;
 
 use geo_types::{Coord, LineString, Polygon};
 
@@ -25,13 +29,17 @@ pub(crate) use boxes::{
     quad_is_convex, quad_point,
 };
 pub(crate) use climb::climb;
+pub(crate) use erode::erode;
 pub(crate) use farthest::farthest;
 pub(crate) use inset::{inset_lines, keep_apart, strip, Corner, Segment};
 pub(crate) use pole::{middle, pole};
+pub(crate) use rest::rest;
 pub(crate) use sample::Sampler;
 pub(crate) use smooth::{smooth, Smoothing};
 pub(crate) use split::{clipped, split, Line};
 pub(crate) use stroke::{circle, stroke};
+pub(crate) use voronoi::{aside, heart, leeway, Border, Diagram, Site};
+pub(crate) use weld::{weld, Weld};
 
 /// The vertices of a closed line, the first not repeated.
 pub(crate) type Ring = Vec<Coord<f64>>;

@@ -13,10 +13,13 @@ mod peel;
 pub(crate) mod place;
 pub(crate) mod points;
 pub(crate) mod primitive;
+mod runs;
 mod scatter;
+mod sites;
 pub(crate) mod smoothing;
 mod sweep;
 mod target;
+mod voronoi;
 
 use crate::derive::{Node, Places, Run, Scope};
 use crate::error::Failure;
@@ -119,6 +122,8 @@ pub(crate) const OPERATORS: &[Operator] = &[
     operator("FitRectangle", Deed::Divide(fit_rectangle::fit_rectangle)),
     operator("Peel", Deed::Part(peel::peel)),
     operator("SplitHoles", Deed::Part(holes::split_holes)),
+    operator("VoronoiRegions", Deed::Divide(voronoi::voronoi)),
+    operator("VoronoiSmoothed", Deed::Divide(voronoi::voronoi)),
     operator("Place", Deed::Act(place::place)),
     operator("Scatter", Deed::Act(scatter::scatter)),
     operator("Distribute", Deed::Act(distribute::distribute)),
@@ -178,6 +183,9 @@ pub(crate) const WORDS: &[&str] = &[
     "average",
     "chaikin",
     "round",
+    // VoronoiRegions.
+    "Weighted",
+    "Around",
     // Modes: which way things face.
     "in",
     "out",
@@ -202,6 +210,25 @@ pub(crate) fn in_other_case(word: &str) -> Option<&'static str> {
         // A place or selector is asked for more often than a mode.
         known.chars().filter(|c| c.is_uppercase()).count()
     })
+}
+
+/// The argument `width`, where the grammar wants paths at all.
+fn path_width(
+    arguments: &mut Arguments<'_>,
+    scope: &mut Scope<'_>,
+    default: f64,
+) -> Result<f64, Failure> {
+    match arguments.named("width") {
+        Some(expr) => {
+            let width = scope.metres(expr)?;
+            if width < 0.0 {
+                return Err(Failure::fault(expr.span, "a width is 0 or more"));
+            }
+            // Empty braces say that there are none, however wide.
+            Ok(if default > 0.0 { width } else { 0.0 })
+        }
+        None => Ok(default),
+    }
 }
 
 pub(crate) fn operator_named(name: &str) -> Option<&'static Operator> {
