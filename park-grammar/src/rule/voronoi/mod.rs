@@ -137,7 +137,9 @@ pub(crate) fn voronoi(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let least = SLIVER * region.area.size();
     let plain = |areas: Vec<crate::plane::Area>, role| -> Vec<Region> {
         let solid = areas.into_iter().filter(|area| area.size() > least);
-        solid.map(|area| piece(&heritage, area, axes, role)).collect()
+        solid
+            .map(|area| piece(&heritage, area, axes, role))
+            .collect()
     };
     Ok(Partition {
         outputs: vec![
