@@ -11,6 +11,7 @@ mod grid;
 pub(crate) mod place;
 pub(crate) mod points;
 pub(crate) mod primitive;
+mod rays;
 mod runs;
 mod scatter;
 mod sites;
@@ -114,6 +115,7 @@ pub(crate) const OPERATORS: &[Operator] = &[
     operator("Polygon", Deed::Shape),
     operator("Grid", Deed::Divide(grid::grid)),
     operator("FitRectangle", Deed::Divide(fit_rectangle::fit_rectangle)),
+    operator("CastRays", Deed::Divide(rays::rays)),
     operator("VoronoiRegions", Deed::Divide(voronoi::voronoi)),
     operator("VoronoiSmoothed", Deed::Divide(voronoi::voronoi)),
     operator("Place", Deed::Act(place::place)),
@@ -157,6 +159,18 @@ pub(crate) const WORDS: &[&str] = &[
     // VoronoiRegions.
     "Weighted",
     "Around",
+    // CastRays.
+    "nearest",
+    "unconnected",
+    "all",
+    "loop",
+    "open",
+    "pairs",
+    "opposites",
+    "delaunay",
+    "tree",
+    "drop",
+    "end",
     // Placing and selectors.
     "AREA",
     "POISSON",
