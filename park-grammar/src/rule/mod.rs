@@ -13,6 +13,7 @@ mod peel;
 pub(crate) mod place;
 pub(crate) mod points;
 pub(crate) mod primitive;
+mod rays;
 mod runs;
 mod scatter;
 mod sites;
@@ -120,6 +121,7 @@ pub(crate) const OPERATORS: &[Operator] = &[
     operator("Polygon", Deed::Shape),
     operator("Grid", Deed::Divide(grid::grid)),
     operator("FitRectangle", Deed::Divide(fit_rectangle::fit_rectangle)),
+    operator("CastRays", Deed::Divide(rays::rays)),
     operator("Peel", Deed::Part(peel::peel)),
     operator("SplitHoles", Deed::Part(holes::split_holes)),
     operator("VoronoiRegions", Deed::Divide(voronoi::voronoi)),
@@ -186,6 +188,18 @@ pub(crate) const WORDS: &[&str] = &[
     // VoronoiRegions.
     "Weighted",
     "Around",
+    // CastRays.
+    "nearest",
+    "unconnected",
+    "all",
+    "loop",
+    "open",
+    "pairs",
+    "opposites",
+    "delaunay",
+    "tree",
+    "drop",
+    "end",
     // Modes: which way things face.
     "in",
     "out",

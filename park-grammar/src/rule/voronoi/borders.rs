@@ -19,7 +19,7 @@ use crate::plane::{aside, dist, dot, heart, leeway, unit, Border, Diagram, Ring,
 const SHARE: f64 = 0.7;
 
 /// Points of a line for each wavelength.
-const FINE: f64 = 8.0;
+const FINE: f64 = 4.0;
 
 /// Most points of a border.
 const MOST: f64 = 400.0;

@@ -27,7 +27,8 @@
 //! *Smoothing* is the second argument, or `smooth =`: `average`, `chaikin`,
 //! `round` or `none`, with `times`, `radius` and `reach` as
 //! [`smoothing`](super::smoothing) has them. Unspecified it is `average`, twice,
-//! as the notes say; without paths none. A region is smoothed inside itself, so
+//! as the notes say, within four widths of a path from each corner; without paths
+//! none. A region is smoothed inside itself, so
 //! that paths only become wider; what lies on the boundary of the divided region
 //! is not moved.
 //!
@@ -70,6 +71,10 @@ const MOST: usize = 20_000;
 
 /// What is smaller than this share of the region is rounding.
 const SLIVER: f64 = 1e-12;
+
+/// Unless the grammar says how regions are smoothed, that is done within so many
+/// widths of a path from corners.
+const REACH: f64 = 4.0;
 
 /// What is asked, apart from the region.
 struct Asked {
@@ -174,7 +179,7 @@ fn read(ask: &mut Ask<'_, '_>) -> Result<Asked, Failure> {
     let least = not_negative(least, "least")?.unwrap_or(width * width);
     let named = arguments.named("smooth");
     let way = named.or(arguments.next().map(|argument| &argument.value));
-    let default = (width > 0.0).then_some(Smoother::AVERAGE);
+    let default = (width > 0.0).then(|| Smoother::AVERAGE.within(REACH * width));
     let smoother = Smoother::of(way, &mut arguments, scope, default)?;
     arguments.done()?;
     let spots = sites(scope, &places.value, MOST)?;
