@@ -137,8 +137,12 @@ pub(crate) fn rays(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     };
     let axes = region.local.axes();
     let plain = |areas: Vec<Area>, role| -> Vec<Region> {
-        let solid = areas.into_iter().filter(|a| a.size() > SLIVER * area.size());
-        solid.map(|area| piece(&heritage, area, axes, role)).collect()
+        let solid = areas
+            .into_iter()
+            .filter(|a| a.size() > SLIVER * area.size());
+        solid
+            .map(|area| piece(&heritage, area, axes, role))
+            .collect()
     };
     let regions = pieces.into_iter().map(|area| between.cell(area));
     Ok(Partition {
@@ -215,7 +219,12 @@ fn read(ask: &mut Ask<'_, '_>) -> Result<Asked, Failure> {
     if least < 0.0 {
         return Err(Failure::fault(span, "least is 0 or more"));
     }
-    let rays = word(scope, arguments.named("rays"), &network::WORDS, "which rays")?;
+    let rays = word(
+        scope,
+        arguments.named("rays"),
+        &network::WORDS,
+        "which rays",
+    )?;
     let join = word(scope, arguments.named("join"), &joins::WORDS, "how to join")?;
     let ways = [("drop", false), ("end", true)];
     let hidden = word(scope, arguments.named("hidden"), &ways, "what to do")?;
