@@ -50,8 +50,7 @@ use super::{Arguments, Ask, Output, Partition, Primitive};
 use crate::derive::{outputs, Scope, Spot, Stream};
 use crate::error::Failure;
 use crate::plane::{
-    difference, lerp, oriented_box, rest, sliced, union, weld, Area, Diagram,
-    Site,
+    difference, lerp, oriented_box, rest, sliced, union, weld, Area, Diagram, Site,
 };
 use crate::shape::{Heritage, Region, Role};
 use crate::syntax::ast::{Expr, ExprKind};
@@ -155,8 +154,12 @@ fn divide(region: &Region, asked: &Asked, chance: &mut Stream) -> Option<Partiti
     };
     let axes = region.local.axes();
     let plain = |areas: Vec<Area>, role| -> Vec<Region> {
-        let solid = areas.into_iter().filter(|a| a.size() > SLIVER * area.size());
-        solid.map(|area| piece(&heritage, area, axes, role)).collect()
+        let solid = areas
+            .into_iter()
+            .filter(|a| a.size() > SLIVER * area.size());
+        solid
+            .map(|area| piece(&heritage, area, axes, role))
+            .collect()
     };
     let regions = pieces.into_iter().map(|area| between.cell(area));
     Some(Partition {
@@ -224,7 +227,12 @@ fn read(ask: &mut Ask<'_, '_>) -> Result<Asked, Failure> {
     if least < 0.0 {
         return Err(Failure::fault(span, "least is 0 or more"));
     }
-    let rays = word(scope, arguments.named("rays"), &network::WORDS, "which rays")?;
+    let rays = word(
+        scope,
+        arguments.named("rays"),
+        &network::WORDS,
+        "which rays",
+    )?;
     let join = word(scope, arguments.named("join"), &joins::WORDS, "how to join")?;
     let ways = [("drop", false), ("end", true)];
     let hidden = word(scope, arguments.named("hidden"), &ways, "what to do")?;

@@ -396,7 +396,16 @@ mod tests {
     /// A centre that sees no target gets a way out, and joins go round corners.
     #[test]
     fn all_centres_have_a_way_out() {
-        let u = [(0., 0.), (0., 30.), (8., 30.), (8., 8.), (20., 8.), (20., 30.), (28., 30.), (28., 0.)];
+        let u = [
+            (0., 0.),
+            (0., 30.),
+            (8., 30.),
+            (8., 8.),
+            (20., 8.),
+            (20., 30.),
+            (28., 30.),
+            (28., 0.),
+        ];
         let area = Area::new(u.map(|(x, y)| p(x, y)).to_vec(), Vec::new());
         let centres = [p(3., 26.), p(24., 26.)];
         let mut network = Network::new(&area, 30.0, 1.0, &centres, &[0.0; 2]);
