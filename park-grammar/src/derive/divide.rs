@@ -57,7 +57,7 @@ impl Run<'_> {
             for region in output.regions {
                 let mut child = node.child(region);
                 child.ground = output.ground;
-                child.material = output.material.to_owned();
+                child.material = output.material;
                 child.shaped = k == 2 && centre.is_some();
                 if let Some(branch) = branch {
                     self.deeper(&mut child, |run, child| {
@@ -88,7 +88,7 @@ impl Run<'_> {
         }
         let grammar = self.grammar;
         match grammar.rule(&first.name.text) {
-            Some(rule) if depth < self.options.depth => {
+            Some(rule) if depth < self.limits.depth() => {
                 let bound = self.bound(node, first, &rule.places, places)?;
                 self.leading_shape(node, &rule.body, &bound, depth + 1)
             }

@@ -109,12 +109,24 @@ impl Area {
         let mut best = (p, f64::INFINITY);
         for (a, b) in self.rings().flat_map(|ring| sides(ring)) {
             let q = nearest_on(a, b, p);
-            let away = dist(p, q);
+            let away = square(p - q);
             if away < best.1 {
                 best = (q, away);
             }
         }
-        best
+        (best.0, best.1.sqrt())
+    }
+
+    /// Whether the boundary is at least so far from a point.
+    pub(crate) fn keeps_away(&self, p: Coord<f64>, far: f64) -> bool {
+        let aside = |p: f64, a: f64, b: f64| p + far <= a.min(b) || p - far >= a.max(b);
+        let mut edges = self.rings().flat_map(|ring| sides(ring));
+        edges.all(|(a, b)| {
+            // Most edges lie far to one side.
+            aside(p.x, a.x, b.x)
+                || aside(p.y, a.y, b.y)
+                || square(p - nearest_on(a, b, p)) >= far * far
+        })
     }
 
     /// The centre of mass.
@@ -197,8 +209,13 @@ pub(crate) fn cross(a: Coord<f64>, b: Coord<f64>) -> f64 {
     a.x * b.y - a.y * b.x
 }
 
+fn square(a: Coord<f64>) -> f64 {
+    dot(a, a)
+}
+
+/// The length of a vector. Parks are metres wide: no square overflows.
 pub(crate) fn norm(a: Coord<f64>) -> f64 {
-    a.x.hypot(a.y)
+    square(a).sqrt()
 }
 
 pub(crate) fn dist(a: Coord<f64>, b: Coord<f64>) -> f64 {

@@ -56,7 +56,7 @@ mod tests {
             line(&[(5., 5.), (11., 5.)]),
             line(&[(5., 5.), (-1., 5.)]),
         ];
-        let mut sizes = |lines: &[Ring]| -> Vec<f64> {
+        let sizes = |lines: &[Ring]| -> Vec<f64> {
             let found = sliced(std::slice::from_ref(&square), lines);
             let mut sizes: Vec<f64> = found.iter().map(Area::size).collect();
             sizes.sort_by(f64::total_cmp);

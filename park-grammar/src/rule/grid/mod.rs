@@ -53,7 +53,7 @@ use crate::plane::{
 };
 use crate::shape::{Heritage, Local, Region, Role};
 
-use cells::Lattice;
+use cells::{Centres, Lattice};
 use sizes::{Cut, Dimension, Laying};
 use symmetry::Symmetry;
 
@@ -117,9 +117,10 @@ pub(crate) fn grid(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let shape = ask.centre;
     let whole = shape.map_or_else(Vec::new, |shape| lattice.whole_centres(&inside, shape));
     let mut centres = cells::clipped_centres(&whole, &inside);
-    let cells = lattice.cells(&inside);
+    let watch = scope.watch();
+    let cells = lattice.cells(&watch, &inside)?;
     let mut paths = if width > 0.0 {
-        difference(&inside, &lattice.beside(&inside, &whole))
+        difference(&inside, &lattice.beside(&watch, &inside, &whole)?)
     } else {
         Vec::new()
     };
@@ -128,7 +129,8 @@ pub(crate) fn grid(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
         centres = intersection(&crossings, &paths);
         paths = difference(&paths, &crossings);
     }
-    let mut cells = cells::without(cells, &whole);
+    let near = Centres::new(&whole);
+    let mut cells = cells::without(cells, &near);
     let least = SLIVER * region.area.size();
     cells.retain(|cell| cell.area.size() > least);
     if cells.is_empty() {
@@ -137,10 +139,11 @@ pub(crate) fn grid(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     }
 
     let heritage = Heritage::new(region, "Grid");
-    let regions = cells
-        .into_iter()
-        .map(|cell| lattice.region(&heritage, cell, &whole, &symmetry))
-        .collect();
+    let mut regions = Vec::with_capacity(cells.len());
+    for cell in cells {
+        watch.tick()?;
+        regions.push(lattice.region(&heritage, cell, &near, &symmetry));
+    }
     let [along, up] = Local::new(lattice.quad).axes();
     let plain = |areas: Vec<Area>, role: Role| -> Vec<Region> {
         let piece = |area| piece(&heritage, area, [along, up], role);

@@ -29,10 +29,20 @@ const ON: f64 = 1e-7;
 const BEYOND: f64 = 2.0;
 
 /// The land of a path in an area: of what its width covers the part that can be
-/// walked to, not that behind a fence.
+/// walked to, not that behind a fence. It is round where it begins, at bends, and
+/// at an end that does not go on over the boundary.
 pub(super) fn land(path: &Path, width: f64, area: &Area, size: f64) -> Vec<Area> {
     let line = extended(path, BEYOND * width);
-    let mut found = intersection(&stroke(&line, width, false), std::slice::from_ref(area));
+    let mut covered = Vec::new();
+    for pair in line.windows(2) {
+        covered.extend(stroke(pair, width, false));
+    }
+    let inner = line.len() - usize::from(path.leaves);
+    for k in 0..inner {
+        let way = line[(k + 1).min(line.len() - 1)] - line[k.saturating_sub(1)];
+        covered.push(disc(line[k], 0.5 * width, unit(way)));
+    }
+    let mut found = intersection(&covered, std::slice::from_ref(area));
     if found.len() > 1 {
         let near = ON * size;
         let middles: Vec<Coord<f64>> = path
@@ -49,11 +59,24 @@ pub(super) fn land(path: &Path, width: f64, area: &Area, size: f64) -> Vec<Area>
     found
 }
 
+/// A circle whose polygon turns with a path.
+fn disc(at: Coord<f64>, radius: f64, along: Coord<f64>) -> Area {
+    let corner = |k: i32| {
+        let (sin, cos) = f64::from(10 * k).to_radians().sin_cos();
+        let turned = Coord {
+            x: along.x * cos - along.y * sin,
+            y: along.x * sin + along.y * cos,
+        };
+        at + turned * radius
+    };
+    Area::new((0..36).map(corner).collect(), Vec::new())
+}
+
 /// A path's line, longer where it goes on over the boundary.
 pub(super) fn extended(path: &Path, by: f64) -> Vec<Coord<f64>> {
     let mut line = path.line.clone();
-    if let (true, [.., before, end]) = (path.leaves, path.line.as_slice()) {
-        line.push(*end + unit(*end - *before) * by);
+    if let (true, [.., before, end]) = (path.leaves, line.as_mut_slice()) {
+        *end = *end + unit(*end - *before) * by;
     }
     line
 }

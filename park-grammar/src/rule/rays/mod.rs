@@ -17,7 +17,9 @@
 //! `from` is the first of a number (90 degrees, north). `rays =` says which are
 //! cast: `nearest`, from each centre to its nearest target; `unconnected`
 //! (default), to each target from its nearest centre; `all`, from each centre to
-//! each target. Rays cross no other path ([`network`]), and none leads outside.
+//! each target. Rays cross no other path ([`network`]), and none leads outside;
+//! one that would leave a centre, or reach a target, at less than `apart` (10
+//! degrees) from another path is not cast, as it would be the same walk.
 //!
 //! *Joins* of centres are `join = none`, `loop` (default), `open` (a loop without
 //! one edge), `pairs`, `opposites`, `delaunay` or `tree` ([`joins`]).
@@ -45,11 +47,10 @@ use geo_types::Coord;
 use super::grid::piece;
 use super::sites::{self, shape_at, sites};
 use super::{Arguments, Ask, Output, Partition, Primitive};
-use crate::derive::{outputs, Scope, Spot};
+use crate::derive::{outputs, Scope, Spot, Stream};
 use crate::error::Failure;
 use crate::plane::{
-    circle, difference, intersection, lerp, oriented_box, rest, sliced, union, weld, Area, Diagram,
-    Site,
+    difference, lerp, oriented_box, rest, sliced, union, weld, Area, Diagram, Site,
 };
 use crate::shape::{Heritage, Region, Role};
 use crate::syntax::ast::{Expr, ExprKind};
@@ -65,6 +66,9 @@ const MOST: usize = 1000;
 /// What is smaller than this share of the region is rounding.
 const SLIVER: f64 = 1e-12;
 
+/// The least angle between paths unless the grammar says so: 10 degrees.
+const NARROW: f64 = std::f64::consts::PI / 18.0;
+
 /// Vertices this near, as a share of the region's size, are one.
 const SAME: f64 = 1e-9;
 
@@ -79,48 +83,61 @@ struct Asked {
     rays: Rays,
     join: Join,
     hidden: bool,
+    /// The least angle between a ray and a path beside it, radians.
+    narrow: f64,
     width: f64,
     least: f64,
     /// The shape of each centre.
     shapes: Vec<Option<Primitive>>,
     /// Whether centres are an output of their own.
-    apart: bool,
+    output: bool,
 }
 
 pub(crate) fn rays(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let asked = read(ask)?;
-    let region = ask.scope.region;
+    let mut chance = ask.scope.chance.child();
+    divide(ask.scope.region, &asked, &mut chance).ok_or_else(|| {
+        let error = "the paths leave no room for regions";
+        Failure::unfit(ask.operation.span, error)
+    })
+}
+
+/// The walk-graph of a region.
+fn walks(region: &Region, asked: &Asked, chance: &mut Stream) -> Vec<Path> {
     let (area, size) = (&region.area, sites::size(region));
     let at: Vec<Coord<f64>> = asked.spots.iter().map(|spot| spot.at).collect();
-    let mut chance = ask.scope.chance.child();
-    let links = asked
-        .join
-        .links(&at, || neighbours(region, &at), &mut chance);
+    let links = asked.join.links(&at, || neighbours(region, &at), chance);
     let radius = |shape: &Option<Primitive>| shape.map_or(0.0, Primitive::radius);
     let radii: Vec<f64> = asked.shapes.iter().map(radius).collect();
     let mut network = Network::new(area, size, 0.5 * asked.width, &at, &radii);
+    network.narrow = asked.narrow;
     network.join(&links);
     if let Some(targets) = &asked.targets {
         network.cast(targets, asked.rays, asked.hidden);
         network.exits();
     }
-    let paths = network.paths;
+    network.paths
+}
 
+/// Divides a region; `None` if nothing but paths would be left.
+fn divide(region: &Region, asked: &Asked, chance: &mut Stream) -> Option<Partition> {
+    let (area, size) = (&region.area, sites::size(region));
+    let at: Vec<Coord<f64>> = asked.spots.iter().map(|spot| spot.at).collect();
+    let paths = walks(region, asked, chance);
     let mut lands: Vec<Option<Area>> = Vec::new();
     for (&at, shape) in at.iter().zip(&asked.shapes) {
         let taken: Vec<Area> = lands.iter().flatten().cloned().collect();
         let whole = shape.map(|shape| shape_at(shape, at, &region.local));
         lands.push(whole.and_then(|whole| clipped(&whole, area, at, &taken)));
     }
-    let cells = between(area, &asked, &paths, &lands, size);
+    let cells = between(area, asked, &paths, &lands, size);
     let least = asked.least.max(SLIVER * area.size());
     let mut pieces: Vec<Area> = cells.into_iter().filter(|a| a.size() > least).collect();
     let count = pieces.len();
-    let centres = lands.iter().flatten().filter(|_| asked.apart);
+    let centres = lands.iter().flatten().filter(|_| asked.output);
     pieces.extend(centres.cloned());
     if pieces.is_empty() {
-        let error = "the paths leave no room for regions";
-        return Err(Failure::unfit(ask.operation.span, error));
+        return None;
     }
     let (mut pieces, walked) = rest(area, pieces);
     let centres = pieces.split_off(count);
@@ -145,7 +162,7 @@ pub(crate) fn rays(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
             .collect()
     };
     let regions = pieces.into_iter().map(|area| between.cell(area));
-    Ok(Partition {
+    Some(Partition {
         outputs: vec![
             Output::lawns(regions.collect()),
             Output::paths(plain(walked, Role::Path)),
@@ -166,18 +183,9 @@ fn between(
     if asked.width > 0.0 {
         for path in paths {
             taken.extend(land(path, asked.width, area, size));
-            for &centre in path.centres.iter().flatten() {
-                let at = asked.spots[centre].at;
-                let disc = Area::new(circle(at, 0.5 * asked.width), Vec::new());
-                taken.extend(clipped(&disc, area, at, &[]));
-            }
-            for pair in path.line.windows(3) {
-                let bend = Area::new(circle(pair[1], 0.5 * asked.width), Vec::new());
-                let inside = intersection(&[bend], std::slice::from_ref(area));
-                taken.extend(sites::part_at(inside, pair[1]));
-            }
         }
     }
+    let taken = union(&taken);
     let all: Vec<&Area> = std::iter::once(area).chain(&taken).collect();
     let mut welded = weld(&all, SAME * size);
     let outline = if welded.is_empty() {
@@ -185,7 +193,7 @@ fn between(
     } else {
         welded.remove(0)
     };
-    let left = difference(&[outline], &union(&welded));
+    let left = difference(&[outline], &welded);
     if asked.width > 0.0 {
         return left;
     }
@@ -228,28 +236,30 @@ fn read(ask: &mut Ask<'_, '_>) -> Result<Asked, Failure> {
     let join = word(scope, arguments.named("join"), &joins::WORDS, "how to join")?;
     let ways = [("drop", false), ("end", true)];
     let hidden = word(scope, arguments.named("hidden"), &ways, "what to do")?;
-    let from = match arguments.named("from") {
+    let mut angle = |name: &'static str, default: f64| match arguments.named(name) {
         Some(expr) => {
             let wrong = || Failure::fault(expr.span, "an angle was expected");
-            scope.number(expr)?.radians().ok_or_else(wrong)?
+            scope.number(expr)?.radians().ok_or_else(wrong)
         }
-        None => std::f64::consts::FRAC_PI_2,
+        None => Ok(default),
     };
+    let from = angle("from", std::f64::consts::FRAC_PI_2)?;
+    let narrow = angle("apart", NARROW)?;
     arguments.done()?;
     let targets = match targets {
         Some(expr) => Some(Targets::read(scope, expr, from)?),
         None => None,
     };
     let spots = sites(scope, centres, MOST)?;
-    let apart = outputs(ask.operation).get(2).copied().flatten();
+    let third = outputs(ask.operation).get(2).copied().flatten();
     // Only what is written is a size where centres are no output.
-    let written = apart.is_some() || matches!(centres.kind, ExprKind::Index(..));
+    let written = third.is_some() || matches!(centres.kind, ExprKind::Index(..));
     let shape = |spot: &Spot| {
         let round = (written && spot.radius > 0.0).then_some(Primitive::Circle(spot.radius));
         ask.centre.or(round)
     };
     let shapes: Vec<Option<Primitive>> = spots.iter().map(shape).collect();
-    if let Some(block) = apart.filter(|_| shapes.iter().all(Option::is_none)) {
+    if let Some(block) = third.filter(|_| shapes.iter().all(Option::is_none)) {
         let failure = Failure::fault(block.span, "how large are the centres?");
         return Err(failure.hint("begin with a shape, such as Circle(5), or write CENTRE[5]"));
     }
@@ -262,7 +272,8 @@ fn read(ask: &mut Ask<'_, '_>) -> Result<Asked, Failure> {
         width,
         least,
         shapes,
-        apart: apart.is_some(),
+        output: third.is_some(),
+        narrow,
     })
 }
 
@@ -287,3 +298,6 @@ fn word<T: Copy>(
     let failure = Failure::fault(expr.span, format!("this does not say {what}"));
     Err(failure.hint(format!("there are {}", names.join(", "))))
 }
+
+#[cfg(test)]
+mod tests;

@@ -78,6 +78,8 @@ pub(super) struct Network<'a> {
     groups: Groups,
     /// Whether a ray leaves from a centre.
     cast: Vec<bool>,
+    /// The least angle between a ray and another path at one of its ends, radians.
+    pub(super) narrow: f64,
     pub(super) paths: Vec<Path>,
 }
 
@@ -97,6 +99,7 @@ impl<'a> Network<'a> {
             room: radii.iter().map(|r| r.max(half)).collect(),
             groups: Groups::new(centres.len()),
             cast: vec![false; centres.len()],
+            narrow: 0.0,
             paths: Vec::new(),
         }
     }
@@ -165,7 +168,8 @@ impl<'a> Network<'a> {
                 Rays::Unconnected => !directed && reached[candidate.target],
                 Rays::All => false,
             };
-            if !skip && self.ray(candidate.centre, candidate.end, directed) {
+            let Candidate { centre, end, .. } = candidate;
+            if !skip && self.is_apart(centre, end.at) && self.ray(centre, end, directed) {
                 reached[candidate.target] = true;
             }
         }
@@ -237,6 +241,28 @@ impl<'a> Network<'a> {
             leaves,
         });
         true
+    }
+
+    /// Whether the way from a centre keeps the least angle from all paths that
+    /// begin or end where it does.
+    fn is_apart(&self, centre: usize, to: Coord<f64>) -> bool {
+        let from = self.centres[centre];
+        let near = NEAR * self.size;
+        let narrow = |u: Coord<f64>, v: Coord<f64>| {
+            cross(u, v).abs().atan2(dot(u, v)) < self.narrow * (1.0 - NEAR)
+        };
+        self.paths.iter().all(|path| {
+            let line = &path.line;
+            let (n, first) = (line.len(), line[1] - line[0]);
+            let last = line[n - 2] - line[n - 1];
+            [(line[0], first), (line[n - 1], last)]
+                .into_iter()
+                .all(|(end, way)| {
+                    let begins = dist(end, from) <= near && narrow(to - from, way);
+                    let ends = dist(end, to) <= near && narrow(from - to, way);
+                    !begins && !ends
+                })
+        })
     }
 
     fn has_exit(&self, centre: usize) -> bool {
@@ -352,7 +378,7 @@ mod tests {
         assert_eq!(paths(&two, Rays::Unconnected, &[]).len(), 4);
         let nearest = paths(&two, Rays::Nearest, &[]);
         let ends: Vec<_> = nearest.iter().map(|path| path.line[1]).collect();
-        assert_eq!(ends, [p(20., 20.), p(0., 0.)]);
+        assert_eq!(ends, [p(0., 0.), p(20., 20.)]);
         // Of eight rays the two to the farthest corners cross the others' on the
         // way to the two middling ones, each other not.
         let all = paths(&two, Rays::All, &[]);

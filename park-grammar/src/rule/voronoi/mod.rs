@@ -58,7 +58,7 @@ use super::grid::piece;
 use super::sites::{self, sites};
 use super::smoothing::Smoother;
 use super::{Arguments, Ask, Output, Partition};
-use crate::derive::{outputs, Spot};
+use crate::derive::{outputs, Spot, Stream};
 use crate::error::Failure;
 use crate::plane::{lerp, oriented_box, rest, Diagram, Ring, Site};
 use crate::shape::{Heritage, Region, Role};
@@ -87,10 +87,18 @@ struct Asked {
 
 pub(crate) fn voronoi(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let asked = read(ask)?;
+    let mut chance = ask.scope.chance.child();
+    divide(ask.scope.region, &asked, &mut chance).ok_or_else(|| {
+        let error = "the paths leave no room for regions";
+        Failure::unfit(ask.operation.span, error)
+    })
+}
+
+/// Divides a region; `None` if nothing but paths would be left.
+fn divide(region: &Region, asked: &Asked, chance: &mut Stream) -> Option<Partition> {
     let Asked {
         spots, wave, plan, ..
-    } = &asked;
-    let region = ask.scope.region;
+    } = asked;
     let grown: Vec<Site> = spots
         .iter()
         .map(|spot| Site {
@@ -103,8 +111,7 @@ pub(crate) fn voronoi(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
         })
         .collect();
     let diagram = Diagram::new(&grown, &frame(region));
-    let mut chance = ask.scope.chance.child();
-    let rings = borders::rings(&diagram, &grown, wave, &mut chance);
+    let rings = borders::rings(&diagram, &grown, wave, chance);
     let at: Vec<_> = grown.iter().map(|site| site.at).collect();
     let cells = cells::within(&region.area, &rings, &at);
 
@@ -126,8 +133,7 @@ pub(crate) fn voronoi(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
         walls.push(wall);
     }
     if pieces.is_empty() && centres.is_empty() {
-        let error = "the paths leave no room for regions";
-        return Err(Failure::unfit(ask.operation.span, error));
+        return None;
     }
     let count = pieces.len();
     pieces.extend(centres);
@@ -146,7 +152,7 @@ pub(crate) fn voronoi(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
             .map(|area| piece(&heritage, area, axes, role))
             .collect()
     };
-    Ok(Partition {
+    Some(Partition {
         outputs: vec![
             Output::lawns(regions.collect()),
             Output::paths(plain(paths, Role::Path)),
@@ -215,3 +221,6 @@ fn frame(region: &Region) -> Ring {
     let middle = lerp(corners[0], corners[2], 0.5);
     corners.map(|corner| lerp(middle, corner, 1.2)).to_vec()
 }
+
+#[cfg(test)]
+mod tests;
