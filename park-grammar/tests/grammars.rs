@@ -5,6 +5,7 @@ mod outline;
 
 use park_grammar::geo_types::{Coord, LineString, Polygon};
 use park_grammar::scene::Piece;
+use park_grammar::syntax::{parse, print, Sources};
 use park_grammar::{grammars, DeriveOptions, Grammar, Scene};
 
 /// A park, by its corners in metres.
@@ -146,7 +147,7 @@ fn derive(grammar: &Grammar, park: &Polygon<f64>, seed: u64) -> Result<Scene, St
 
 fn check(name: &str) {
     let known = grammars::named(name).expect("in the library");
-    let grammar = known.grammar().expect("reads");
+    let grammar = known.grammar().unwrap_or_else(|error| panic!("{error}"));
     let long = std::env::var_os("URBAN_LAYOUT_LONG").is_some();
     let mut broken = Vec::new();
     for (park, outline) in parks().into_iter().chain(more()) {
@@ -211,6 +212,26 @@ fn formal_garden() {
 #[test]
 fn allotments() {
     check("allotments");
+}
+
+#[test]
+fn texts_are_read_as_they_are_printed() {
+    for one in &grammars::ALL {
+        let tree = |text: &str| {
+            let mut sources = Sources::default();
+            sources.add(one.name, text);
+            parse(&sources, 0).unwrap_or_else(|faults| panic!("{}\n{faults}", one.name))
+        };
+        let written = tree(one.text);
+        assert_eq!(tree(&print(&written)), written, "{}", one.name);
+        assert_eq!(grammars::named(one.name), Some(one));
+        // What a landscape architect reads first says what the park is.
+        assert!(
+            written.items[0].comments.len() > 3 || written.head.len() > 3,
+            "{}",
+            one.name
+        );
+    }
 }
 
 /// The notes' own words, with rules for the names that they leave open, on a
