@@ -25,6 +25,14 @@ pub enum ParkError {
         /// What is wrong with it.
         what: String,
     },
+    /// A parameter has been given a value that the grammar does not have.
+    #[error("the grammar has no parameter {name}; it has {known}")]
+    Param {
+        /// What was given.
+        name: String,
+        /// Those that there are.
+        known: String,
+    },
     /// The derivation did not come to an end.
     #[error("the derivation was stopped: {what}; look for a rule that leads back to itself, or raise the limit")]
     Limit {

@@ -18,7 +18,9 @@ fn park(points: &[(f64, f64)], hole: &[(f64, f64)]) -> Polygon<f64> {
 
 fn parks() -> Vec<(String, Polygon<f64>)> {
     let all = shapes();
-    all.into_iter().map(|(name, park)| (name.to_owned(), park)).collect()
+    all.into_iter()
+        .map(|(name, park)| (name.to_owned(), park))
+        .collect()
 }
 
 /// The parks of a folder of GeoJSON files that `URBAN_LAYOUT_PARKS` names.
@@ -32,7 +34,11 @@ fn more() -> Vec<(String, Polygon<f64>)> {
     let read = |path: std::path::PathBuf| {
         let text = std::fs::read_to_string(&path).expect("a text");
         let park = outline::outline(&text).expect("a park");
-        (path.file_stem().map_or_else(String::new, |s| s.display().to_string()), park)
+        (
+            path.file_stem()
+                .map_or_else(String::new, |s| s.display().to_string()),
+            park,
+        )
     };
     files.into_iter().map(read).collect()
 }
@@ -40,12 +46,25 @@ fn more() -> Vec<(String, Polygon<f64>)> {
 /// Parks as they are: narrow, bent, with a bay, with a building in them.
 fn shapes() -> Vec<(&'static str, Polygon<f64>)> {
     vec![
-        ("square", park(&[(0., 0.), (60., 0.), (60., 60.), (0., 60.)], &[])),
-        ("strip", park(&[(0., 0.), (250., 40.), (247., 55.), (-2., 13.)], &[])),
+        (
+            "square",
+            park(&[(0., 0.), (60., 0.), (60., 60.), (0., 60.)], &[]),
+        ),
+        (
+            "strip",
+            park(&[(0., 0.), (250., 40.), (247., 55.), (-2., 13.)], &[]),
+        ),
         (
             "block",
             park(
-                &[(3., -8.), (118., 4.), (127., 71.), (104., 96.), (22., 103.), (-6., 61.)],
+                &[
+                    (3., -8.),
+                    (118., 4.),
+                    (127., 71.),
+                    (104., 96.),
+                    (22., 103.),
+                    (-6., 61.),
+                ],
                 &[],
             ),
         ),
@@ -53,8 +72,14 @@ fn shapes() -> Vec<(&'static str, Polygon<f64>)> {
             "bend",
             park(
                 &[
-                    (0., 0.), (140., 10.), (150., 60.), (75., 52.), (62., 70.), (70., 160.),
-                    (8., 168.), (-14., 90.),
+                    (0., 0.),
+                    (140., 10.),
+                    (150., 60.),
+                    (75., 52.),
+                    (62., 70.),
+                    (70., 160.),
+                    (8., 168.),
+                    (-14., 90.),
                 ],
                 &[],
             ),
@@ -63,8 +88,15 @@ fn shapes() -> Vec<(&'static str, Polygon<f64>)> {
             "bay",
             park(
                 &[
-                    (0., 0.), (210., -12.), (230., 120.), (150., 131.), (141., 60.), (118., 41.),
-                    (92., 49.), (87., 140.), (12., 128.),
+                    (0., 0.),
+                    (210., -12.),
+                    (230., 120.),
+                    (150., 131.),
+                    (141., 60.),
+                    (118., 41.),
+                    (92., 49.),
+                    (87., 140.),
+                    (12., 128.),
                 ],
                 &[],
             ),
@@ -72,7 +104,14 @@ fn shapes() -> Vec<(&'static str, Polygon<f64>)> {
         (
             "house",
             park(
-                &[(-4., 0.), (170., 22.), (181., 90.), (160., 155.), (60., 170.), (0., 120.)],
+                &[
+                    (-4., 0.),
+                    (170., 22.),
+                    (181., 90.),
+                    (160., 155.),
+                    (60., 170.),
+                    (0., 120.),
+                ],
                 &[(70., 70.), (104., 74.), (101., 99.), (67., 95.)],
             ),
         ),
@@ -81,8 +120,15 @@ fn shapes() -> Vec<(&'static str, Polygon<f64>)> {
             "hourglass",
             park(
                 &[
-                    (0., 0.), (80., 5.), (64., 50.), (70., 62.), (120., 110.), (40., 140.),
-                    (-20., 95.), (43., 60.), (44., 48.),
+                    (0., 0.),
+                    (80., 5.),
+                    (64., 50.),
+                    (70., 62.),
+                    (120., 110.),
+                    (40., 140.),
+                    (-20., 95.),
+                    (43., 60.),
+                    (44., 48.),
                 ],
                 &[],
             ),

@@ -44,7 +44,10 @@ pub(super) fn call(
     }
     let number = match name.text.as_str() {
         "sqrt" if first.value < 0.0 => {
-            return Err(Failure::fault(span, "there is no root of less than nothing"));
+            return Err(Failure::fault(
+                span,
+                "there is no root of less than nothing",
+            ));
         }
         "sqrt" if first.unit == Unit::None => Number {
             value: first.value.sqrt(),
@@ -62,7 +65,11 @@ pub(super) fn call(
             let mut best = first;
             for &(number, span) in rest {
                 let (kept, new, unit) = compared(best, number, span)?;
-                let take = if word == "min" { new < kept } else { new > kept };
+                let take = if word == "min" {
+                    new < kept
+                } else {
+                    new > kept
+                };
                 best = Number {
                     value: if take { new } else { kept },
                     unit,

@@ -33,11 +33,14 @@ impl Run<'_> {
             .keys()
             .find(|k| !known.contains(&k.as_str()))
         {
-            return Err(Failure::Stopped(ParkError::Limit {
-                what: format!(
-                    "the grammar has no parameter {name}, it has {}",
-                    known.join(", ")
-                ),
+            let known = if known.is_empty() {
+                "none".to_owned()
+            } else {
+                known.join(", ")
+            };
+            return Err(Failure::Stopped(ParkError::Param {
+                name: name.clone(),
+                known,
             }));
         }
         for (name, expr) in self.grammar.param_values() {

@@ -38,7 +38,10 @@ pub(crate) fn broken(park: &Polygon<f64>, scene: &Scene) -> Vec<String> {
     found.extend(collisions(&scene.objects));
     for object in scene.objects.iter().filter(|o| o.ground == Ground::Region) {
         if !within(park, object.at) || clearance(park, object.at) < object.radius - NEAR {
-            found.push(format!("{} leaves the park at {:?}", object.name, object.at));
+            found.push(format!(
+                "{} leaves the park at {:?}",
+                object.name, object.at
+            ));
         }
         let clear = |path: &&Polygon<f64>| {
             let near = extent(path);

@@ -20,7 +20,11 @@ pub(crate) fn outline(text: &str) -> Result<Polygon<f64>, Box<dyn Error>> {
     let largest = |p: &Polygon<f64>| p.exterior().lines().map(|l| l.determinant()).sum::<f64>();
     polygons.sort_by(|a, b| largest(b).abs().total_cmp(&largest(a).abs()));
     let park = polygons.into_iter().next().ok_or("there is no polygon")?;
-    let origin = *park.exterior().coords().next().ok_or("there is no corner")?;
+    let origin = *park
+        .exterior()
+        .coords()
+        .next()
+        .ok_or("there is no corner")?;
     let metres = 111_320.0;
     let ring = |ring: &LineString<f64>| -> LineString<f64> {
         let local = ring.coords().map(|c| {
