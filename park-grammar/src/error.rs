@@ -25,12 +25,12 @@ pub enum ParkError {
         /// What is wrong with it.
         what: String,
     },
-    /// A parameter has been given a value that the grammar does not have.
-    #[error("the grammar has no parameter {name}; it has {known}")]
-    Param {
-        /// What was given.
+    /// The caller sets a parameter that the grammar does not have.
+    #[error("the grammar has no parameter {name}, its parameters are: {known}")]
+    Parameter {
+        /// Its name.
         name: String,
-        /// Those that there are.
+        /// Those that the grammar has.
         known: String,
     },
     /// The derivation did not come to an end.

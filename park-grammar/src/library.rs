@@ -115,7 +115,7 @@ pub(crate) fn crown(leaves: &str, middle: &str, edge: &str) -> String {
 }
 
 /// All materials; the names in capitals are those of the notes.
-pub const MATERIALS: [Material; 16] = [
+pub const MATERIALS: [Material; 17] = [
     material("Lawn", "#b7d58a", false),
     material("Meadow", "#c9d98b", false),
     material("GREEN_GRASS", "#a9cf7d", false),
@@ -132,6 +132,8 @@ pub const MATERIALS: [Material; 16] = [
     material("StonePath", "#cfc6b8", true),
     material("Asphalt", "#bcbcbc", true),
     material("Deck", "#c9a779", true),
+    // Mown, and walked on.
+    material("GrassPath", "#c3dd98", true),
 ];
 
 /// All things.

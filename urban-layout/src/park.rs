@@ -208,7 +208,7 @@ pub(crate) fn refused(error: &ParkError) -> Error {
         ParkError::Grammar(faults) => Error::input(line_of(faults)),
         ParkError::Rule(faults) => Error::unsatisfied(line_of(faults)),
         ParkError::File { .. } | ParkError::Outline { .. } => Error::input(error.to_string()),
-        ParkError::Param { .. } => Error::usage(error.to_string()),
+        ParkError::Parameter { .. } => Error::usage(error.to_string()),
         ParkError::Cancelled => Error::cancelled(),
         _ => Error::unsatisfied(error.to_string()),
     }

@@ -326,7 +326,7 @@ fn what_is_wrong_is_said_and_nothing_is_written() {
         (
             2,
             run("park.geojson", "my.park", &["--param", "Narrow=1"]),
-            "it has Wide",
+            "its parameters are: Wide",
         ),
         (
             2,

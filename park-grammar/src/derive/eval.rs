@@ -1,16 +1,16 @@
 //! Expressions, evaluated for a region.
 
-use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use geo_types::Coord;
 
+use super::limits::{Limits, Watch};
 use super::math;
 use super::object::{declared, OBJECT};
 use super::random::Stream;
 use super::value::{Late, Number, SizeRange, Sizing, Value};
-use crate::error::{Failure, ParkError};
+use crate::error::Failure;
 use crate::grammar::Grammar;
 use crate::plane::{dot, pole};
 use crate::rule::points;
@@ -26,10 +26,6 @@ pub(crate) type Places = BTreeMap<String, Value>;
 /// Deepest calls of functions within each other.
 const DEEPEST: usize = 64;
 
-/// Most expressions evaluated in a derivation: selections that are passed on from
-/// rule to rule are evaluated anew for each region, and may double each time.
-const STEPS: usize = 5_000_000;
-
 /// What an expression is evaluated for.
 pub(crate) struct Scope<'s> {
     pub(crate) grammar: &'s Grammar,
@@ -38,21 +34,22 @@ pub(crate) struct Scope<'s> {
     pub(crate) region: &'s Region,
     pub(crate) chance: &'s mut Stream,
     pub(crate) depth: usize,
-    /// Expressions evaluated so far in the derivation.
-    pub(crate) steps: &'s Cell<usize>,
+    pub(crate) limits: &'s Limits<'s>,
+    /// The rule that the region follows.
+    pub(crate) rule: &'s Arc<str>,
 }
 
 type Found = Result<Value, Failure>;
 
-impl Scope<'_> {
+impl<'s> Scope<'s> {
+    /// What a long operation looks at on its way.
+    pub(crate) fn watch(&self) -> Watch<'s> {
+        Watch::new(self.limits, self.rule)
+    }
+
     pub(crate) fn value(&mut self, expr: &Expr) -> Found {
         let span = expr.span;
-        self.steps.set(self.steps.get() + 1);
-        if self.steps.get() > STEPS {
-            return Err(Failure::Stopped(ParkError::Limit {
-                what: format!("it came to {STEPS} values"),
-            }));
-        }
+        self.limits.value(self.rule)?;
         Ok(match &expr.kind {
             ExprKind::Number(value, unit) => Value::Number(Number {
                 value: *value,
@@ -168,7 +165,8 @@ impl Scope<'_> {
             region: self.region,
             chance: self.chance,
             depth: self.depth + 1,
-            steps: self.steps,
+            limits: self.limits,
+            rule: self.rule,
         })
     }
 
@@ -230,6 +228,13 @@ impl Scope<'_> {
                 }
                 _ => Err(Failure::fault(span, "a place has one size")),
             },
+            Value::Word(word) if word == "CENTRE" => {
+                let centre = points::spots(self.region, Value::Word(word), span)?;
+                match items {
+                    [size] => Ok(Value::Spots(points::with_room(centre, self.metres(size)?))),
+                    _ => Err(Failure::fault(span, "a place has one size")),
+                }
+            }
             Value::List(list) => {
                 let numbers = self.wholes(items)?;
                 let [k] = numbers[..] else {

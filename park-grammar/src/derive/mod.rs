@@ -8,10 +8,12 @@
 mod content;
 mod divide;
 mod eval;
+mod limits;
 mod math;
 mod node;
 mod object;
 mod options;
+mod patches;
 mod random;
 mod run;
 mod spot;
@@ -21,11 +23,16 @@ mod value;
 mod walk;
 
 pub(crate) use content::Size;
+pub(crate) use divide::outputs;
 pub(crate) use eval::{Places, Scope, ATTRIBUTES};
+#[cfg(test)]
+pub(crate) use limits::Limits;
+pub(crate) use limits::Watch;
 pub(crate) use math::NAMES as FUNCTIONS;
 pub(crate) use node::Node;
 pub(crate) use object::{mesh_file, OBJECT};
 pub use options::DeriveOptions;
+pub(crate) use patches::Patches;
 pub(crate) use random::Stream;
 pub(crate) use run::Run;
 pub(crate) use standing::{clear, inside, Disc, Standing};

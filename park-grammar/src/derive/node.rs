@@ -1,7 +1,8 @@
 //! Nodes of a derivation.
 
-use super::{Standing, Stream};
-use crate::plane::Area;
+use std::sync::Arc;
+
+use super::{Patches, Standing, Stream};
 use crate::scene::Ground;
 use crate::shape::Region;
 
@@ -9,12 +10,13 @@ use crate::shape::Region;
 pub(crate) struct Node {
     pub(crate) region: Region,
     pub(crate) ground: Ground,
-    pub(crate) material: String,
+    /// What it is made of, one of the library's.
+    pub(crate) material: &'static str,
     /// The rule that it follows.
-    pub(crate) rule: String,
+    pub(crate) rule: Arc<str>,
     pub(crate) chance: Stream,
     /// What has been cut out of it.
-    pub(crate) carved: Vec<Area>,
+    pub(crate) carved: Patches,
     /// What stands on it.
     pub(crate) standing: Standing,
     /// Whether other regions have taken its place.
@@ -27,14 +29,14 @@ pub(crate) struct Node {
 
 impl Node {
     /// A region where a derivation begins.
-    pub(super) fn new(region: Region, rule: &str, chance: Stream) -> Self {
+    pub(super) fn new(region: Region, rule: Arc<str>, chance: Stream) -> Self {
         Self {
             region,
             ground: Ground::Region,
-            material: "Lawn".to_owned(),
-            rule: rule.to_owned(),
+            material: "Lawn",
+            rule,
             chance,
-            carved: Vec::new(),
+            carved: Patches::default(),
             standing: Standing::default(),
             divided: false,
             shaped: false,
@@ -47,9 +49,9 @@ impl Node {
     pub(super) fn child(&mut self, region: Region) -> Self {
         Self {
             ground: self.ground,
-            material: self.material.clone(),
+            material: self.material,
             level: self.level,
-            ..Self::new(region, &self.rule, self.chance.child())
+            ..Self::new(region, self.rule.clone(), self.chance.child())
         }
     }
 }

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::slice::from_ref;
-use std::time::Instant;
 
-use super::{DeriveOptions, Node, Number, Places, Scope, Value};
+use super::limits::Limits;
+use super::{DeriveOptions, Node, Number, Places, Scope, Value, Watch};
 use crate::error::{Failure, ParkError};
 use crate::grammar::Grammar;
 use crate::library;
@@ -18,13 +18,10 @@ pub(crate) struct Run<'g> {
     pub(super) params: BTreeMap<String, Value>,
     pub(crate) scene: Scene,
     pub(super) options: &'g DeriveOptions,
-    pub(super) began: Instant,
-    pub(super) operations: usize,
-    pub(super) steps: std::cell::Cell<usize>,
-    pub(super) watch: &'g mut dyn FnMut(usize) -> bool,
+    pub(super) limits: &'g Limits<'g>,
 }
 
-impl Run<'_> {
+impl<'g> Run<'g> {
     pub(super) fn set_params(&mut self, node: &mut Node) -> Result<(), Failure> {
         let known: Vec<&str> = self.grammar.params().collect();
         if let Some(name) = self
@@ -33,14 +30,9 @@ impl Run<'_> {
             .keys()
             .find(|k| !known.contains(&k.as_str()))
         {
-            let known = if known.is_empty() {
-                "none".to_owned()
-            } else {
-                known.join(", ")
-            };
-            return Err(Failure::Stopped(ParkError::Param {
+            return Err(Failure::Stopped(ParkError::Parameter {
                 name: name.clone(),
-                known,
+                known: known.join(", "),
             }));
         }
         for (name, expr) in self.grammar.param_values() {
@@ -73,32 +65,19 @@ impl Run<'_> {
             region: &node.region,
             chance: &mut node.chance,
             depth: 0,
-            steps: &self.steps,
+            limits: self.limits,
+            rule: &node.rule,
         }
     }
 
     /// Counts an operation, and sees that there are not too many.
-    pub(crate) fn count(&mut self) -> Result<(), Failure> {
-        let stopped = |error| Err(Failure::Stopped(error));
-        self.operations += 1;
-        if self.operations > self.options.operations {
-            return stopped(ParkError::Limit {
-                what: format!("it came to {} operations", self.options.operations),
-            });
-        }
-        if self
-            .options
-            .time
-            .is_some_and(|time| self.began.elapsed() > time)
-        {
-            return stopped(ParkError::Limit {
-                what: "it took too long".to_owned(),
-            });
-        }
-        if !(self.watch)(self.operations) {
-            return stopped(ParkError::Cancelled);
-        }
-        Ok(())
+    pub(crate) fn count(&self, node: &Node) -> Result<(), Failure> {
+        self.limits.operation(&node.rule)
+    }
+
+    /// What a long operation looks at on its way.
+    pub(crate) fn watch(&self, node: &Node) -> Watch<'g> {
+        Watch::new(self.limits, &node.rule)
     }
 
     pub(crate) fn bound(
@@ -118,14 +97,7 @@ impl Run<'_> {
         node: &mut Node,
         inner: impl FnOnce(&mut Self, &mut Node) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        if node.level >= self.options.depth {
-            return Err(Failure::Stopped(ParkError::Limit {
-                what: format!(
-                    "rules lead to rules {} deep, at {}",
-                    self.options.depth, node.rule
-                ),
-            }));
-        }
+        self.limits.deeper(&node.rule, node.level)?;
         node.level += 1;
         let done = inner(self, node);
         node.level -= 1;
@@ -140,10 +112,15 @@ impl Run<'_> {
         let left = if node.carved.is_empty() {
             vec![node.region.area.clone()]
         } else {
-            difference(from_ref(&node.region.area), &node.carved)
+            difference(from_ref(&node.region.area), node.carved.all())
         };
-        let walked = library::material_named(&node.material).is_some_and(|m| m.path);
-        let ground = if walked { Ground::Path } else { node.ground };
+        // What it is made of says whether one walks on it: a bed of flowers where
+        // paths cross is no path, a paved place on a lawn is one.
+        let ground = match library::material_named(node.material) {
+            Some(material) if material.path => Ground::Path,
+            Some(_) => Ground::Region,
+            None => node.ground,
+        };
         for &k in &node.standing.objects {
             self.scene.objects[k].ground = ground;
         }
@@ -151,8 +128,8 @@ impl Run<'_> {
             self.scene.pieces.push(Piece {
                 polygon: area.to_polygon(),
                 ground,
-                material: node.material.clone(),
-                rule: node.rule.clone(),
+                material: node.material.to_owned(),
+                rule: node.rule.to_string(),
             });
         }
         Ok(())

@@ -2,6 +2,8 @@
 
 use std::slice::from_ref;
 
+use geo_types::Coord;
+
 use super::{clear, Node, Places, Run, Spot};
 use crate::error::Failure;
 use crate::index;
@@ -9,6 +11,9 @@ use crate::plane::{difference, intersection, Area};
 use crate::rule::{control, operator_named, Deed, Primitive};
 use crate::shape::{Heritage, Role};
 use crate::syntax::ast::{Operation, Span};
+
+/// More than a radius, by more than rounding.
+const CLEAR: f64 = 1.0 + 1e-6;
 
 impl Run<'_> {
     /// Cuts a shape out of a region, and does the rest on what was cut out.
@@ -26,20 +31,8 @@ impl Run<'_> {
         }
         let ring = primitive.ring(spot.at, spot.facing);
         let shape = Area::new(ring, Vec::new());
-        let free = difference(from_ref(&node.region.area), &node.carved);
-        let mut found = intersection(from_ref(&shape), &free);
-        let whole: f64 = found.iter().map(Area::size).sum();
-        let taken = node.standing.discs().iter();
-        let taken = taken.map(|disc| (disc.at, disc.radius));
-        let taken = taken
-            .into_iter()
-            .any(|(at, radius)| !clear(&shape, at, radius))
-            || !intersection(std::slice::from_ref(&shape), &node.standing.built).is_empty();
-        if taken || (whole - shape.size()).abs() > 1e-6 * shape.size() || found.len() != 1 {
+        let Some(area) = free_ground(node, shape, spot.at, primitive.radius()) else {
             return Err(Failure::unfit(span, "there is no room for this shape"));
-        }
-        let Some(area) = found.pop() else {
-            return Ok(());
         };
         let local = crate::shape::Local::upright(&area.outer);
         let heritage = Heritage::new(&node.region, "Shape");
@@ -76,7 +69,7 @@ impl Run<'_> {
         spot: Spot,
     ) -> Result<(), Failure> {
         for (k, operation) in body.iter().enumerate() {
-            self.count()?;
+            self.count(node)?;
             let name = operation.name.text.as_str();
             let grammar = self.grammar;
             if let Some(rule) = grammar.rule(name) {
@@ -107,5 +100,44 @@ impl Run<'_> {
             }
         }
         Ok(())
+    }
+}
+
+/// A shape, if all of it lies on ground that is free, as the region has it.
+/// `radius` is that of the circle around it.
+fn free_ground(node: &Node, shape: Area, at: Coord<f64>, radius: f64) -> Option<Area> {
+    let around = Spot {
+        at,
+        radius: radius * CLEAR,
+        facing: 0.0,
+    };
+    if Run::room(node, around, around.radius, around.radius) {
+        // Where the circle has room, so has the shape.
+        return Some(shape);
+    }
+    let (low, high) = shape.extent();
+    let discs = node.standing.near(low, high);
+    let mut taken = discs.iter().map(|disc| (disc.at, disc.radius));
+    if taken.any(|(at, radius)| !clear(&shape, at, radius)) {
+        return None;
+    }
+    let built: Vec<Area> = node
+        .standing
+        .built
+        .near(low, high)
+        .into_iter()
+        .cloned()
+        .collect();
+    if !built.is_empty() && !intersection(from_ref(&shape), &built).is_empty() {
+        return None;
+    }
+    let mut found = intersection(from_ref(&shape), from_ref(&node.region.area));
+    let carved: Vec<Area> = node.carved.near(low, high).into_iter().cloned().collect();
+    if !carved.is_empty() {
+        found = difference(&found, &carved);
+    }
+    match found.as_slice() {
+        [area] if (area.size() - shape.size()).abs() <= 1e-6 * shape.size() => found.pop(),
+        _ => None,
     }
 }

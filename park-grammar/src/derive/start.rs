@@ -1,10 +1,11 @@
 //! Where a derivation begins and ends: an outline in, a scene out.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::time::Instant;
 
 use geo_types::Polygon;
 
+use super::limits::Limits;
 use super::{DeriveOptions, Node, Run, Stream};
 use crate::error::ParkError;
 use crate::grammar::Grammar;
@@ -61,17 +62,17 @@ impl Grammar {
         };
         let mut region = Region::bare(area);
         index::park(&mut region);
+        let watch = RefCell::new(watch);
+        let ask = |operations: usize| (watch.borrow_mut())(operations);
+        let limits = Limits::new(options, &ask);
         let mut run = Run {
             grammar: self,
             params: BTreeMap::new(),
             scene: Scene::default(),
             options,
-            began: Instant::now(),
-            operations: 0,
-            steps: std::cell::Cell::new(0),
-            watch,
+            limits: &limits,
         };
-        let mut node = Node::new(region, self.start(), Stream::new(options.seed));
+        let mut node = Node::new(region, self.start().into(), Stream::new(options.seed));
         let done = run
             .set_params(&mut node)
             .and_then(|()| run.start(&mut node));

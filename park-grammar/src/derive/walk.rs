@@ -24,7 +24,7 @@ impl Run<'_> {
         places: &Places,
     ) -> Result<(), Failure> {
         for (k, operation) in body.iter().enumerate() {
-            self.count()?;
+            self.count(node)?;
             let shape =
                 operator_named(&operation.name.text).is_some_and(|o| matches!(o.deed, Deed::Shape));
             if shape && std::mem::take(&mut node.shaped) {
@@ -68,7 +68,7 @@ impl Run<'_> {
             kinds: self.scene.kinds.len(),
             skipped: self.scene.skipped,
         };
-        let (material, carved) = (node.material.clone(), node.carved.len());
+        let (material, carved) = (node.material, node.carved.len());
         let standing = node.standing.clone();
         match self.operation(node, operation, places) {
             Err(Failure::Unfit(_)) => {
@@ -101,7 +101,7 @@ impl Run<'_> {
         let grammar = self.grammar;
         if let Some(rule) = grammar.rule(name) {
             let bound = self.bound(node, operation, &rule.places, places)?;
-            let before = std::mem::replace(&mut node.rule, name.to_owned());
+            let before = std::mem::replace(&mut node.rule, rule.label.clone());
             self.deeper(node, |run, node| {
                 run.body(node, &rule.body.operations, &bound)
             })?;
@@ -123,7 +123,8 @@ impl Run<'_> {
         }
         if let Some(operator) = operator_named(name) {
             return match operator.deed {
-                Deed::Divide(divide) => self.divide(node, operation, places, divide),
+                Deed::Divide(divide) => self.divide(node, operation, places, divide, true),
+                Deed::Part(divide) => self.divide(node, operation, places, divide, false),
                 Deed::Act(act) => act(self, node, operation, places),
                 Deed::Branch => {
                     let chosen = control::branch(operation, &mut self.scope(node, places))?;
@@ -138,7 +139,7 @@ impl Run<'_> {
             };
         }
         if let Some(material) = library::material_named(name) {
-            node.material = material.name.to_owned();
+            node.material = material.name;
             return Ok(());
         }
         let spot = Spot {

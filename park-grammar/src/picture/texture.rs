@@ -20,7 +20,7 @@ pub(super) fn texture(material: &str, colour: &str) -> Option<Texture> {
         })
     };
     match material {
-        "Lawn" | "GREEN_GRASS" | "BLUE_GRASS" => square(900, tufts(900, 16, colour)),
+        "Lawn" | "GREEN_GRASS" | "BLUE_GRASS" | "GrassPath" => square(900, tufts(900, 16, colour)),
         "Meadow" => {
             let mut elements = tufts(800, 20, colour);
             let bloom = ["#fdf6c9", "#f2d86b", "#ffffff", "#d9b3d1"];

@@ -72,21 +72,27 @@ pub(crate) fn scatter(
     };
     let mut chosen: Vec<(Coord<f64>, usize)> = Vec::new();
     if full {
-        darts::fill(&mut chance, &sampler, 0.0, |chance, at| {
-            let k = kinds.choose(chance);
-            let size = kinds.all[k].2;
-            free(node, &own, size, at).then(|| {
-                let radius = reach(size);
-                own.add(Disc {
-                    at,
-                    radius,
-                    spread: radius,
-                });
-                chosen.push((at, k));
-                // Without room of its own a thing has that of its footprint.
-                radius.max(size.radius).max(0.1)
-            })
-        });
+        darts::fill(
+            &run.watch(node),
+            &mut chance,
+            &sampler,
+            0.0,
+            |chance, at| {
+                let k = kinds.choose(chance);
+                let size = kinds.all[k].2;
+                free(node, &own, size, at).then(|| {
+                    let radius = reach(size);
+                    own.add(Disc {
+                        at,
+                        radius,
+                        spread: radius,
+                    });
+                    chosen.push((at, k));
+                    // Without room of its own a thing has that of its footprint.
+                    radius.max(size.radius).max(0.1)
+                })
+            },
+        )?;
         while count.is_some_and(|count| chosen.len() > count) {
             let k = chance.below(chosen.len());
             chosen.swap_remove(k);
@@ -95,7 +101,7 @@ pub(crate) fn scatter(
     }
     let (mut left, mut missed) = (count.filter(|_| !full).unwrap_or(0), 0);
     while left > 0 {
-        run.count()?;
+        run.count(node)?;
         left -= 1;
         let k = kinds.choose(&mut chance);
         let size = kinds.all[k].2;

@@ -6,7 +6,7 @@ use geo_types::{coord, Coord};
 use proptest::prelude::*;
 
 use super::*;
-use crate::derive::{Places, Scope, Stream, Value};
+use crate::derive::{DeriveOptions, Limits, Places, Scope, Stream, Value};
 use crate::error::Failure;
 use crate::grammar::Grammar;
 use crate::plane::Area;
@@ -77,7 +77,8 @@ fn value(region: &Region, text: &str) -> Result<Value, Failure> {
         region,
         chance: &mut Stream::new(0),
         depth: 0,
-        steps: &std::cell::Cell::new(0),
+        limits: &Limits::new(&DeriveOptions::default(), &|_| true),
+        rule: &"Region".into(),
     };
     scope.value(&expr(text))
 }
@@ -270,7 +271,7 @@ fn boundaries_and_corners() {
 fn history_goes_by_rule_role_and_level() {
     let mut shape = rectangle();
     let mark = |depth, role| Mark {
-        rule: "Peel".to_owned(),
+        rule: "Peel".into(),
         depth,
         role,
     };
@@ -283,7 +284,7 @@ fn history_goes_by_rule_role_and_level() {
         vec![
             mark(4, Role::Inner),
             Mark {
-                rule: "Grid".to_owned(),
+                rule: "Grid".into(),
                 depth: 2,
                 role: Role::Path,
             },

@@ -2,6 +2,7 @@
 
 use super::symmetry::{number_sides, Symmetry};
 use super::*;
+use crate::derive::Watch;
 use crate::plane::{lerp, quad_angles, quad_area, quad_coordinates, quad_is_convex, quad_point};
 use crate::shape::Cell;
 
@@ -157,7 +158,12 @@ impl Lattice {
     /// and overlap each other. Cells as the areas' edges and centres cut them have
     /// those edges up to rounding, which would leave paths as thin as a hair along
     /// them.
-    pub(super) fn beside(&self, inside: &[Area], centres: &[Area]) -> Vec<Area> {
+    pub(super) fn beside(
+        &self,
+        watch: &Watch<'_>,
+        inside: &[Area],
+        centres: &[Area],
+    ) -> Result<Vec<Area>, Failure> {
         let points: Vec<Coord<f64>> = inside
             .iter()
             .flat_map(|a| a.outer.iter().copied())
@@ -171,21 +177,21 @@ impl Lattice {
         let wide = box_along(&[low - more, high + more], Coord { x: 1.0, y: 0.0 });
         let wide = Area::new(wide.to_vec(), Vec::new());
         let mut found: Vec<Area> = self
-            .cells(&[wide])
+            .cells(watch, &[wide])?
             .into_iter()
             .map(|piece| piece.area)
             .collect();
         found.extend_from_slice(centres);
-        found
+        Ok(found)
     }
 
     /// The cells of areas.
-    pub(super) fn cells(&self, inside: &[Area]) -> Vec<Piece> {
+    pub(super) fn cells(&self, watch: &Watch<'_>, inside: &[Area]) -> Result<Vec<Piece>, Failure> {
         let of = [self.lines[0].len() + 1, self.lines[1].len() + 1];
         let mut found = Vec::new();
-        let columns = strips(inside.to_vec(), &self.lines[0], self.half);
+        let columns = strips(watch, inside.to_vec(), &self.lines[0], self.half)?;
         for (column, strip) in columns.into_iter().enumerate() {
-            let rows = strips(strip, &self.lines[1], self.half);
+            let rows = strips(watch, strip, &self.lines[1], self.half)?;
             for (row, areas) in rows.into_iter().enumerate() {
                 let cell = Cell {
                     at: [column, row],
@@ -194,7 +200,7 @@ impl Lattice {
                 found.extend(areas.into_iter().map(|area| Piece { area, cell }));
             }
         }
-        found
+        Ok(found)
     }
 
     /// A cell as a region.
@@ -202,13 +208,14 @@ impl Lattice {
         &self,
         heritage: &Heritage<'_>,
         piece: Piece,
-        centres: &[Area],
+        centres: &Centres<'_>,
         symmetry: &Symmetry,
     ) -> Region {
         let Piece { area, cell } = piece;
         let local = symmetry.local(self.local(&area, cell), cell);
         let around: Vec<(&Line, f64)> = self.around(cell).into_iter().flatten().collect();
         let on = ON * self.size;
+        let centres: Vec<&Area> = centres.within(&area, on).collect();
         let role = |a: Coord<f64>, b: Coord<f64>| {
             let along = around
                 .iter()
@@ -216,7 +223,7 @@ impl Lattice {
             let middle = lerp(a, b, 0.5);
             Some(if along && self.half > 0.0 {
                 Role::Path
-            } else if !along && centres.iter().any(|c| c.nearest(middle).1 < on) {
+            } else if !along && centres.iter().any(|c| !c.keeps_away(middle, on)) {
                 Role::Centre
             } else {
                 Role::Seam
@@ -330,15 +337,21 @@ fn reached(quad: &Quad, area: &Area) -> Option<Quad> {
 
 /// Areas between lines that have what comes first on their left; halved again and
 /// again, so that each is cut by few lines.
-fn strips(areas: Vec<Area>, lines: &[Line], half: f64) -> Vec<Vec<Area>> {
+fn strips(
+    watch: &Watch<'_>,
+    areas: Vec<Area>,
+    lines: &[Line],
+    half: f64,
+) -> Result<Vec<Vec<Area>>, Failure> {
+    watch.tick()?;
     if lines.is_empty() {
-        return vec![areas];
+        return Ok(vec![areas]);
     }
     let middle = lines.len() / 2;
     let [before, after] = split(&areas, &lines[middle], half);
-    let mut found = strips(before, &lines[..middle], half);
-    found.extend(strips(after, &lines[middle + 1..], half));
-    found
+    let mut found = strips(watch, before, &lines[..middle], half)?;
+    found.extend(strips(watch, after, &lines[middle + 1..], half)?);
+    Ok(found)
 }
 
 /// Whole centres as far as they lie inside the areas and in none before.
@@ -369,8 +382,7 @@ pub(super) fn clipped_centres(whole: &[Area], inside: &[Area]) -> Vec<Area> {
 
 /// What whole centres leave of cells. Centres that end with the region would leave
 /// hairs along its edge.
-pub(super) fn without(cells: Vec<Piece>, centres: &[Area]) -> Vec<Piece> {
-    let centres = Centres::new(centres);
+pub(super) fn without(cells: Vec<Piece>, centres: &Centres<'_>) -> Vec<Piece> {
     let mut found = Vec::with_capacity(cells.len());
     for Piece { area, cell } in cells {
         let near: Vec<Area> = centres.near(&area).cloned().collect();
@@ -385,14 +397,14 @@ pub(super) fn without(cells: Vec<Piece>, centres: &[Area]) -> Vec<Piece> {
 }
 
 /// Centres, sorted so that those near a cell are soon found.
-struct Centres<'c> {
+pub(super) struct Centres<'c> {
     /// With its extent, by where it begins along x.
     sorted: Vec<(Coord<f64>, Coord<f64>, &'c Area)>,
     widest: f64,
 }
 
 impl<'c> Centres<'c> {
-    fn new(centres: &'c [Area]) -> Self {
+    pub(super) fn new(centres: &'c [Area]) -> Self {
         let mut sorted: Vec<_> = centres
             .iter()
             .map(|area| {
@@ -410,7 +422,14 @@ impl<'c> Centres<'c> {
 
     /// Those whose extents meet that of an area, in one order for all areas.
     fn near<'a>(&'a self, area: &Area) -> impl Iterator<Item = &'c Area> + 'a {
+        self.within(area, 0.0)
+    }
+
+    /// Those whose extents come so near to that of an area.
+    fn within<'a>(&'a self, area: &Area, far: f64) -> impl Iterator<Item = &'c Area> + 'a {
         let (low, high) = area.extent();
+        let far = Coord { x: far, y: far };
+        let (low, high) = (low - far, high + far);
         let first = self
             .sorted
             .partition_point(|(from, _, _)| from.x < low.x - self.widest);
