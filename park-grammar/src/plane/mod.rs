@@ -15,6 +15,7 @@ mod sample;
 mod smooth;
 mod split;
 mod stroke;
+mod trim;
 
 use geo_types::{Coord, LineString, Polygon};
 
@@ -32,6 +33,7 @@ pub(crate) use sample::Sampler;
 pub(crate) use smooth::{smooth, Smoothing};
 pub(crate) use split::{clipped, split, Line};
 pub(crate) use stroke::{circle, stroke};
+pub(crate) use trim::trim;
 
 /// The vertices of a closed line, the first not repeated.
 pub(crate) type Ring = Vec<Coord<f64>>;
