@@ -3,6 +3,8 @@
 
 mod outline;
 
+use std::path::{Path, PathBuf};
+
 use park_grammar::geo_types::{Coord, LineString, Polygon};
 use park_grammar::scene::Piece;
 use park_grammar::syntax::{parse, print, Sources};
@@ -24,12 +26,17 @@ fn parks() -> Vec<(String, Polygon<f64>)> {
         .collect()
 }
 
-/// The parks of a folder of GeoJSON files that `URBAN_LAYOUT_PARKS` names.
+/// The repository's parks (a package has none), and those of a folder of GeoJSON
+/// files that `URBAN_LAYOUT_PARKS` names.
 fn more() -> Vec<(String, Polygon<f64>)> {
-    let Some(folder) = std::env::var_os("URBAN_LAYOUT_PARKS") else {
-        return Vec::new();
-    };
-    let files = std::fs::read_dir(folder).expect("a folder");
+    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data/parks");
+    let named = std::env::var_os("URBAN_LAYOUT_PARKS").map(PathBuf::from);
+    let folders = own.is_dir().then_some(own).into_iter().chain(named);
+    folders.flat_map(folder).collect()
+}
+
+fn folder(path: PathBuf) -> Vec<(String, Polygon<f64>)> {
+    let files = std::fs::read_dir(path).expect("a folder");
     let mut files: Vec<_> = files.map(|file| file.expect("a file").path()).collect();
     files.sort();
     let read = |path: std::path::PathBuf| {

@@ -20,6 +20,7 @@ mod slice;
 mod smooth;
 mod split;
 mod stroke;
+mod trim;
 mod voronoi;
 mod weld;
 
@@ -44,6 +45,7 @@ pub(crate) use slice::sliced;
 pub(crate) use smooth::{smooth, Smoothing};
 pub(crate) use split::{clipped, split, Line};
 pub(crate) use stroke::{circle, stroke};
+pub(crate) use trim::trim;
 pub(crate) use voronoi::{aside, heart, leeway, Border, Diagram, Site};
 pub(crate) use weld::{weld, Weld};
 
