@@ -49,6 +49,9 @@ fn run() -> Result<(), Box<dyn Error>> {
         scene.skipped,
         began.elapsed()
     );
+    for broken in scene.audit(&park).violations {
+        println!("  {broken}");
+    }
     std::fs::write(out, svg(&scene))?;
     Ok(())
 }

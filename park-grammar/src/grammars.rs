@@ -38,7 +38,12 @@ impl Named {
     /// None for the grammars of [`ALL`]; [`ParkError::Grammar`] for a text of your
     /// own that is not what it should be.
     pub fn grammar(&self) -> Result<Grammar, ParkError> {
-        let unread = |file: &str| Err(format!("{file} cannot be read: {} includes none", self.name));
+        let unread = |file: &str| {
+            Err(format!(
+                "{file} cannot be read: {} includes none",
+                self.name
+            ))
+        };
         Grammar::with_includes(&format!("{}.park", self.name), self.text, &unread)
     }
 }

@@ -8,6 +8,7 @@ pub mod grammars;
 mod index;
 pub mod library;
 pub mod mesh;
+pub mod picture;
 mod plane;
 mod rule;
 pub mod scene;

@@ -1,10 +1,10 @@
 //! The library of grammars: each derives on parks of any shape, with several
 //! seeds, and keeps the laws of a park.
 
-mod laws;
 mod outline;
 
 use park_grammar::geo_types::{Coord, LineString, Polygon};
+use park_grammar::scene::Piece;
 use park_grammar::{grammars, DeriveOptions, Grammar, Scene};
 
 /// A park, by its corners in metres.
@@ -153,7 +153,7 @@ fn check(name: &str) {
         for seed in 0..if long { 25 } else { 3 } {
             match derive(&grammar, &outline, seed) {
                 Ok(scene) => {
-                    let found = laws::broken(&outline, &scene);
+                    let found = scene.audit(&outline).violations;
                     broken.extend(found.iter().map(|w| format!("{park}, seed {seed}: {w}")));
                 }
                 Err(error) => broken.push(format!("{park}, seed {seed}: {error}")),
@@ -211,4 +211,56 @@ fn formal_garden() {
 #[test]
 fn allotments() {
     check("allotments");
+}
+
+/// The notes' own words, with rules for the names that they leave open. On a
+/// square of 40 m.
+fn notes(rules: &str) -> Scene {
+    let square = park(&[(0., 0.), (40., 0.), (40., 40.), (0., 40.)], &[]);
+    let grammar = Grammar::new(&format!("grammar 1\n{rules}")).expect("reads");
+    let scene = derive(&grammar, &square, 0).expect("derives");
+    let audit = scene.audit(&square);
+    assert!(audit.is_lawful(), "{:?}", audit.violations);
+    scene
+}
+
+fn count(scene: &Scene, material: &str) -> usize {
+    let of = |piece: &&Piece| piece.material == material;
+    scene.pieces.iter().filter(of).count()
+}
+
+#[test]
+fn the_notes_nested_grid() {
+    let scene = notes(
+        "PathWidth = 2
+         Region -> Grid(3 {2, 6, 2} , 2 {6} ) { NestedRegion } { CementPath }
+         NestedRegion -> Grid { TreeRegion } { StonePath }
+         TreeRegion -> GREEN_GRASS Place(CENTRE) { SmallTree }",
+    );
+    // Columns of 7.2, 21.6 and 7.2 m between paths of 2 m, rows of 19 m. Cells of 4 m
+    // with paths of 2 m: (7.2 + 2) / 6 is nearest to 2, (21.6 + 2) / 6 to 4, and
+    // (19 + 2) / 6 is half way from 3 to 4, which is rounded up.
+    assert_eq!(count(&scene, "GREEN_GRASS"), 2 * (2 + 4 + 2) * 4);
+    assert_eq!(count(&scene, "CementPath"), 1);
+    assert_eq!(count(&scene, "StonePath"), 6);
+    assert_eq!(scene.objects.len(), 64);
+}
+
+#[test]
+fn the_notes_irregular_grid() {
+    let scene = notes(
+        "Region -> Grid (3 {[7,15]a[-15,15]}, 2) { NonWalkableRegion }
+         NonWalkableRegion -> Grid (2 {a[-5,5]}, {[1.5,4]a[-25,25]}) { PlantedRegion } {}
+         PlantedRegion -> Choose { GrassRegion, BushRegion, Plant1Region, Plant2Region /*, … */ }
+         GrassRegion -> GREEN_GRASS
+         BushRegion -> ShrubBed
+         Plant1Region -> FlowerBed
+         Plant2Region -> Planting",
+    );
+    // Six cells, each of two columns with several rows.
+    assert_eq!(count(&scene, "Gravel"), 1);
+    let planted = ["GREEN_GRASS", "ShrubBed", "FlowerBed", "Planting"];
+    let planted = planted.map(|material| count(&scene, material));
+    assert!(planted.iter().all(|&n| n > 0), "{planted:?}");
+    assert!(planted.iter().sum::<usize>() >= 6 * 2 * 4, "{planted:?}");
 }

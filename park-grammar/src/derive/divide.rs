@@ -2,7 +2,7 @@
 
 use super::{Node, Places, Run, Value};
 use crate::error::Failure;
-use crate::rule::{operator_named, Ask, Deed, Partition, Primitive};
+use crate::rule::{holes, operator_named, Ask, Deed, Partition, Primitive};
 use crate::syntax::ast::{Body, Branch, Operation};
 
 impl Run<'_> {
@@ -13,6 +13,7 @@ impl Run<'_> {
         operation: &Operation,
         places: &Places,
         divide: fn(&mut Ask<'_, '_>) -> Result<Partition, Failure>,
+        centred: bool,
     ) -> Result<(), Failure> {
         if node.divided || !node.carved.is_empty() || !node.standing.is_empty() {
             let error = "this region has been divided already";
@@ -20,7 +21,7 @@ impl Run<'_> {
                 .hint("divide first, and put things onto the parts in their own rules"));
         }
         let outputs = outputs(operation);
-        let third = outputs.get(2).copied().flatten();
+        let third = outputs.get(2).copied().flatten().filter(|_| centred);
         let centre = match third {
             Some(branch) => self.leading_shape(node, &branch.body, places, 0)?,
             None => None,
@@ -40,13 +41,16 @@ impl Run<'_> {
                 _ => 2.0,
             }
         };
-        let partition = divide(&mut Ask {
+        let mut partition = divide(&mut Ask {
             operation,
             scope: self.scope(node, places),
             path_width,
             centre,
             centred: third.is_some_and(|branch| !branch.body.operations.is_empty()),
         })?;
+        if holes::everywhere(&self.params) {
+            holes::split_all(&mut partition.outputs);
+        }
         node.divided = true;
         for (k, output) in partition.outputs.into_iter().enumerate() {
             let branch = outputs.get(k).copied().flatten();
@@ -95,7 +99,7 @@ impl Run<'_> {
 
 /// The outputs that the blocks of an operation name: the branches of its only
 /// block, or one for each block; `None` for an empty one.
-fn outputs(operation: &Operation) -> Vec<Option<&Branch>> {
+pub(crate) fn outputs(operation: &Operation) -> Vec<Option<&Branch>> {
     match operation.blocks.as_slice() {
         [only] => only.branches.iter().map(Some).collect(),
         blocks => blocks.iter().map(|block| block.branches.first()).collect(),

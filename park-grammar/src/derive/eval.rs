@@ -228,6 +228,13 @@ impl<'s> Scope<'s> {
                 }
                 _ => Err(Failure::fault(span, "a place has one size")),
             },
+            Value::Word(word) if word == "CENTRE" => {
+                let centre = points::spots(self.region, Value::Word(word), span)?;
+                match items {
+                    [size] => Ok(Value::Spots(points::with_room(centre, self.metres(size)?))),
+                    _ => Err(Failure::fault(span, "a place has one size")),
+                }
+            }
             Value::List(list) => {
                 let numbers = self.wholes(items)?;
                 let [k] = numbers[..] else {

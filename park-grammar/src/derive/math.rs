@@ -1,11 +1,10 @@
-//! Functions of numbers: `min`, `max`, `sqrt`, `round`.
+//! Functions of numbers: `min`, `max`, `sqrt`.
 //!
 //! The notes have no such functions, but a grammar that serves parks of half a
 //! hectare and of fifty needs sizes that grow with the region and stop growing:
 //! `Circle(min(8, 0.4 * room))`. Values of `min` and `max` are compared as
 //! comparisons compare them: metres with feet, and with what has no unit. `sqrt`
-//! is of a plain number (`sqrt(area)` is a length, metres), `round` gives the
-//! nearest whole number in the unit at hand.
+//! is of a plain number: `sqrt(area)` is a length, metres.
 
 use super::eval::compared;
 use super::value::{Number, Value};
@@ -14,7 +13,7 @@ use crate::error::Failure;
 use crate::syntax::ast::{Argument, Name, Unit};
 
 /// Their names.
-pub(crate) const NAMES: [&str; 4] = ["min", "max", "sqrt", "round"];
+pub(crate) const NAMES: [&str; 3] = ["min", "max", "sqrt"];
 
 /// The value of a function; `None` for a name that is none.
 pub(super) fn call(
@@ -44,7 +43,10 @@ pub(super) fn call(
     }
     let number = match name.text.as_str() {
         "sqrt" if first.value < 0.0 => {
-            return Err(Failure::fault(span, "there is no root of less than nothing"));
+            return Err(Failure::fault(
+                span,
+                "there is no root of less than nothing",
+            ));
         }
         "sqrt" if first.unit == Unit::None => Number {
             value: first.value.sqrt(),
@@ -54,15 +56,15 @@ pub(super) fn call(
             let error = "the root of a length is nothing that one could use";
             return Err(Failure::fault(span, error));
         }
-        "round" => Number {
-            value: first.value.round(),
-            ..first
-        },
         word => {
             let mut best = first;
             for &(number, span) in rest {
                 let (kept, new, unit) = compared(best, number, span)?;
-                let take = if word == "min" { new < kept } else { new > kept };
+                let take = if word == "min" {
+                    new < kept
+                } else {
+                    new > kept
+                };
                 best = Number {
                     value: if take { new } else { kept },
                     unit,

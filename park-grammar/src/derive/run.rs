@@ -114,8 +114,13 @@ impl<'g> Run<'g> {
         } else {
             difference(from_ref(&node.region.area), node.carved.all())
         };
-        let walked = library::material_named(node.material).is_some_and(|m| m.path);
-        let ground = if walked { Ground::Path } else { node.ground };
+        // What it is made of says whether one walks on it: a bed of flowers where
+        // paths cross is no path, a paved place on a lawn is one.
+        let ground = match library::material_named(node.material) {
+            Some(material) if material.path => Ground::Path,
+            Some(_) => Ground::Region,
+            None => node.ground,
+        };
         for &k in &node.standing.objects {
             self.scene.objects[k].ground = ground;
         }

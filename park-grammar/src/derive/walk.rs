@@ -123,7 +123,8 @@ impl Run<'_> {
         }
         if let Some(operator) = operator_named(name) {
             return match operator.deed {
-                Deed::Divide(divide) => self.divide(node, operation, places, divide),
+                Deed::Divide(divide) => self.divide(node, operation, places, divide, true),
+                Deed::Part(divide) => self.divide(node, operation, places, divide, false),
                 Deed::Act(act) => act(self, node, operation, places),
                 Deed::Branch => {
                     let chosen = control::branch(operation, &mut self.scope(node, places))?;

@@ -4,30 +4,48 @@
 //! counter-clockwise, so that the land lies on the right of every edge; rings
 //! are open (the first vertex is not repeated).
 
+mod band;
 mod boolean;
 mod boxes;
 mod climb;
+mod erode;
+mod farthest;
 mod inset;
 mod pole;
+mod rest;
+mod route;
 mod sample;
+mod sight;
+mod slice;
 mod smooth;
 mod split;
 mod stroke;
+mod voronoi;
+mod weld;
 
 use geo_types::{Coord, LineString, Polygon};
 
-pub(crate) use boolean::{difference, intersection, union};
+pub(crate) use band::{Band, Bound, Ends};
+pub(crate) use boolean::{difference, intersection, slice, union};
 pub(crate) use boxes::{
     box_along, named_by, oriented_box, quad_angles, quad_area, quad_coordinates, quad_extent,
     quad_is_convex, quad_point,
 };
 pub(crate) use climb::climb;
+pub(crate) use erode::erode;
+pub(crate) use farthest::farthest;
 pub(crate) use inset::{inset_lines, keep_apart, strip, Corner, Segment};
 pub(crate) use pole::{middle, pole};
+pub(crate) use rest::rest;
+pub(crate) use route::Router;
 pub(crate) use sample::Sampler;
+pub(crate) use sight::{leaves, sees};
+pub(crate) use slice::sliced;
 pub(crate) use smooth::{smooth, Smoothing};
 pub(crate) use split::{clipped, split, Line};
 pub(crate) use stroke::{circle, stroke};
+pub(crate) use voronoi::{aside, heart, leeway, Border, Diagram, Site};
+pub(crate) use weld::{weld, Weld};
 
 /// The vertices of a closed line, the first not repeated.
 pub(crate) type Ring = Vec<Coord<f64>>;

@@ -8,13 +8,19 @@ mod distribute;
 mod fit;
 mod fit_rectangle;
 mod grid;
+pub(crate) mod holes;
+mod peel;
 pub(crate) mod place;
 pub(crate) mod points;
 pub(crate) mod primitive;
+mod rays;
+mod runs;
 mod scatter;
+mod sites;
 pub(crate) mod smoothing;
 mod sweep;
 mod target;
+mod voronoi;
 
 use crate::derive::{Node, Places, Run, Scope};
 use crate::error::Failure;
@@ -82,6 +88,8 @@ type Act = fn(&mut Run<'_>, &mut Node, &Operation, &Places) -> Result<(), Failur
 pub(crate) enum Deed {
     /// Divides the region into the outputs of its blocks.
     Divide(Divide),
+    /// The same, where the third output is no centre.
+    Part(Divide),
     /// Puts things on the region, or sets what it is.
     Act(Act),
     /// Cuts a shape out of the region, and goes on with that.
@@ -113,6 +121,11 @@ pub(crate) const OPERATORS: &[Operator] = &[
     operator("Polygon", Deed::Shape),
     operator("Grid", Deed::Divide(grid::grid)),
     operator("FitRectangle", Deed::Divide(fit_rectangle::fit_rectangle)),
+    operator("CastRays", Deed::Divide(rays::rays)),
+    operator("Peel", Deed::Part(peel::peel)),
+    operator("SplitHoles", Deed::Part(holes::split_holes)),
+    operator("VoronoiRegions", Deed::Divide(voronoi::voronoi)),
+    operator("VoronoiSmoothed", Deed::Divide(voronoi::voronoi)),
     operator("Place", Deed::Act(place::place)),
     operator("Scatter", Deed::Act(scatter::scatter)),
     operator("Distribute", Deed::Act(distribute::distribute)),
@@ -164,11 +177,29 @@ pub(crate) const WORDS: &[&str] = &[
     "mirror",
     "pair",
     "extended",
+    // Peel and others.
+    "CornersOrthogonal",
+    "SplitHoles",
     // Smoothing of borders.
     "none",
     "average",
     "chaikin",
     "round",
+    // VoronoiRegions.
+    "Weighted",
+    "Around",
+    // CastRays.
+    "nearest",
+    "unconnected",
+    "all",
+    "loop",
+    "open",
+    "pairs",
+    "opposites",
+    "delaunay",
+    "tree",
+    "drop",
+    "end",
     // Modes: which way things face.
     "in",
     "out",
@@ -193,6 +224,25 @@ pub(crate) fn in_other_case(word: &str) -> Option<&'static str> {
         // A place or selector is asked for more often than a mode.
         known.chars().filter(|c| c.is_uppercase()).count()
     })
+}
+
+/// The argument `width`, where the grammar wants paths at all.
+fn path_width(
+    arguments: &mut Arguments<'_>,
+    scope: &mut Scope<'_>,
+    default: f64,
+) -> Result<f64, Failure> {
+    match arguments.named("width") {
+        Some(expr) => {
+            let width = scope.metres(expr)?;
+            if width < 0.0 {
+                return Err(Failure::fault(expr.span, "a width is 0 or more"));
+            }
+            // Empty braces say that there are none, however wide.
+            Ok(if default > 0.0 { width } else { 0.0 })
+        }
+        None => Ok(default),
+    }
 }
 
 pub(crate) fn operator_named(name: &str) -> Option<&'static Operator> {

@@ -159,6 +159,8 @@ fn corners(scope: &mut Scope<'_>, operation: &Operation) -> Result<Vec<Spot>, Fa
     let region = scope.region;
     let corners = (0..region.sides).filter_map(|k| region.corner(k));
     let mut found: Vec<Coord<f64>> = corners.collect();
+    // A side without edges begins where the next one does.
+    found.dedup();
     if let Some(selection) = of {
         let ends: Vec<Coord<f64>> = selection.lines(region).concat();
         found.retain(|at| ends.contains(at));

@@ -74,7 +74,7 @@ pub(crate) fn grid(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let mut arguments = Arguments::new(ask.operation);
     let exact = arguments.flag(scope, "Exact")?;
     let apart = arguments.flag(scope, "Apart")?;
-    let width = path_width(&mut arguments, scope, ask.path_width)?;
+    let width = super::path_width(&mut arguments, scope, ask.path_width)?;
     let size = match arguments.named("size") {
         Some(expr) => positive(scope.metres(expr)?, expr.span, "size")?,
         None => SIZE,
@@ -173,25 +173,6 @@ pub(crate) fn piece(
     let mut region = heritage.piece(area, Local::new(corners), |_, _| Some(role));
     crate::index::by_local(&mut region);
     region
-}
-
-/// The argument `width`, where the grammar wants paths at all.
-fn path_width(
-    arguments: &mut Arguments<'_>,
-    scope: &mut crate::derive::Scope<'_>,
-    default: f64,
-) -> Result<f64, Failure> {
-    match arguments.named("width") {
-        Some(expr) => {
-            let width = scope.metres(expr)?;
-            if width < 0.0 {
-                return Err(Failure::fault(expr.span, "a width is 0 or more"));
-            }
-            // Empty braces say that there are none, however wide.
-            Ok(if default > 0.0 { width } else { 0.0 })
-        }
-        None => Ok(default),
-    }
 }
 
 fn positive(value: f64, span: crate::syntax::ast::Span, what: &str) -> Result<f64, Failure> {
