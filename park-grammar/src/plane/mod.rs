@@ -8,6 +8,7 @@ mod band;
 mod boolean;
 mod boxes;
 mod climb;
+mod curve;
 mod farthest;
 mod inset;
 mod pole;
@@ -19,13 +20,14 @@ mod trim;
 
 use geo_types::{Coord, LineString, Polygon};
 
-pub(crate) use band::{Band, Bound, Ends};
+pub(crate) use band::{inset, merged, Band, Bound, Ends};
 pub(crate) use boolean::{difference, intersection, slice, union};
 pub(crate) use boxes::{
     box_along, named_by, oriented_box, quad_angles, quad_area, quad_coordinates, quad_extent,
     quad_is_convex, quad_point,
 };
 pub(crate) use climb::climb;
+pub(crate) use curve::{curve, Course};
 pub(crate) use farthest::farthest;
 pub(crate) use inset::{inset_lines, keep_apart, strip, Corner, Segment};
 pub(crate) use pole::{middle, pole};

@@ -11,7 +11,7 @@ use geo_types::Coord;
 use super::{circles, operator_named, Arguments, Deed};
 use crate::derive::{Node, Places, Run, Scope, Spot, Value};
 use crate::error::Failure;
-use crate::plane::{middle, right, unit};
+use crate::plane::{farthest, middle, right, sides, unit, Area, Segment};
 use crate::select::{parametrise, range, Lines, Selection};
 use crate::shape::Region;
 use crate::syntax::ast::{Body, Expr, ExprKind, Operation, Span};
@@ -99,6 +99,7 @@ pub(crate) fn spots(region: &Region, value: Value, span: Span) -> Result<Vec<Spo
     };
     Ok(match value {
         Value::Word(word) if word == "CENTRE" => vec![spot(middle(&region.area))],
+        Value::Word(word) if word == "POLE" => vec![spot(pole(&region.area))],
         // Nothing is drawn where a cell has no such coordinates.
         Value::Point(at) => region.local.point(at).into_iter().map(spot).collect(),
         Value::Spots(spots) => spots,
@@ -112,6 +113,12 @@ pub(crate) fn spots(region: &Region, value: Value, span: Span) -> Result<Vec<Spo
         }
         other => return Err(other.wrong(span, "a place")),
     })
+}
+
+/// The point with the most room around it.
+fn pole(area: &Area) -> Coord<f64> {
+    let edges: Vec<Segment> = area.rings().flat_map(|ring| sides(ring)).collect();
+    farthest(area, &edges).0
 }
 
 /// The place at a share of a selection, facing into the land.
