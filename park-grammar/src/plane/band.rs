@@ -216,7 +216,7 @@ impl Band {
 
 /// Areas made one where they are many: neighbours first, so that no step meets
 /// many that overlap. Along a fine curve all cells of a deep band do.
-fn merged(mut areas: Vec<Area>) -> Vec<Area> {
+pub(crate) fn merged(mut areas: Vec<Area>) -> Vec<Area> {
     if areas.len() <= FEW {
         return areas;
     }

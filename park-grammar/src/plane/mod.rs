@@ -8,6 +8,7 @@ mod band;
 mod boolean;
 mod boxes;
 mod climb;
+mod curve;
 mod erode;
 mod farthest;
 mod inset;
@@ -26,13 +27,14 @@ mod weld;
 
 use geo_types::{Coord, LineString, Polygon};
 
-pub(crate) use band::{Band, Bound, Ends};
+pub(crate) use band::{inset, merged, Band, Bound, Ends};
 pub(crate) use boolean::{difference, intersection, slice, union};
 pub(crate) use boxes::{
     box_along, named_by, oriented_box, quad_angles, quad_area, quad_coordinates, quad_extent,
     quad_is_convex, quad_point,
 };
 pub(crate) use climb::climb;
+pub(crate) use curve::{curve, Course};
 pub(crate) use erode::erode;
 pub(crate) use farthest::farthest;
 pub(crate) use inset::{inset_lines, keep_apart, strip, Corner, Segment};

@@ -145,7 +145,7 @@ pub(crate) fn peel(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
         }
         if rests.is_empty() {
             let deep: f64 = depths[..=k].iter().sum();
-            let error = format!("a strip of {deep:.1} m leaves nothing of this region; less than {whole:.1} m would");
+            let error = format!("a strip of {deep:.1} m leaves nothing of this region");
             return Err(Failure::unfit(span, error));
         }
         strips.push(strip);
@@ -185,19 +185,27 @@ fn heads(ask: &mut Ask<'_, '_>) -> Result<Vec<(Number, Span)>, Failure> {
     Ok(sizes)
 }
 
-/// A size in metres.
-fn depth(size: Number, whole: f64, span: Span) -> Result<f64, Failure> {
-    let share = match size.unit {
+/// Whether a size is a share: a percentage, or a bare number below 1.
+pub(crate) fn is_share(size: Number) -> bool {
+    match size.unit {
         Unit::Percent => true,
-        Unit::None => size.value < 1.0,
+        Unit::None => size.value.abs() < 1.0,
         _ => false,
-    };
-    let metres = if share {
+    }
+}
+
+/// A size in metres, a share being one of `whole`.
+pub(crate) fn metres(size: Number, whole: f64) -> Option<f64> {
+    if is_share(size) {
         size.share(1.0).map(|share| share * whole)
     } else {
         size.metres()
-    };
-    match metres {
+    }
+}
+
+/// A size in metres that is one.
+pub(crate) fn depth(size: Number, whole: f64, span: Span) -> Result<f64, Failure> {
+    match metres(size, whole) {
         Some(metres) if metres > 0.0 && metres.is_finite() => Ok(metres),
         Some(_) => Err(Failure::fault(span, "a size must be positive")),
         None => Err(Failure::fault(span, "a length or a share was expected")),
@@ -260,6 +268,7 @@ fn once(region: &Region, selection: &Selection, depth: f64, way: Way) -> [Vec<Re
     let land = std::slice::from_ref(&band.land);
     let mut rest = difference(land, &band.cover);
     if let Some(smoother) = way.smoother {
+        rest = trim(rest, size(region));
         rest = smoothed(region, &band, rest, &smoother.within(2.0 * depth));
         let least = Band::new(&bounds, LEAST * depth, way.ends);
         rest = difference(&rest, &least.cover);
