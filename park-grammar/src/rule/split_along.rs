@@ -242,6 +242,7 @@ fn cut(region: &Region, line: &Through, width: f64) -> (Vec<Area>, Vec<Area>) {
     }
     let band = merged(stroke(&line.long, width, false));
     let mut paths = intersection(land, &band);
+    let all = paths.len();
     // Beyond its end a path may have met land that the line does not reach.
     paths.retain(|path| {
         let middles = line
@@ -251,7 +252,14 @@ fn cut(region: &Region, line: &Through, width: f64) -> (Vec<Area>, Vec<Area>) {
         let mut points = middles.chain(line.middle.iter().copied());
         points.any(|p| path.contains(p))
     });
-    (difference(land, &paths), paths)
+    // What goes on beyond the boundary cuts clean: a path that ends with it has its
+    // end there up to rounding, and might leave a hair that joins both sides.
+    let areas = if paths.len() == all {
+        difference(land, &band)
+    } else {
+        difference(land, &paths)
+    };
+    (areas, paths)
 }
 
 /// Whether a part lies to the left of a line, by its edges that border on it.
