@@ -12,7 +12,8 @@ type Extent = GeomWithData<Rectangle<[f64; 2]>, usize>;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Patches {
     areas: Vec<Area>,
-    extents: RTree<Extent>,
+    /// None before the first area: most regions never have one.
+    extents: Option<RTree<Extent>>,
 }
 
 impl Patches {
@@ -30,7 +31,8 @@ impl Patches {
     }
 
     pub(crate) fn push(&mut self, area: Area) {
-        self.extents.insert(extent(&area, self.areas.len()));
+        let extent = extent(&area, self.areas.len());
+        self.extents.get_or_insert_default().insert(extent);
         self.areas.push(area);
     }
 
@@ -38,7 +40,8 @@ impl Patches {
     pub(crate) fn truncate(&mut self, count: usize) {
         while self.areas.len() > count {
             if let Some(area) = self.areas.pop() {
-                self.extents.remove(&extent(&area, self.areas.len()));
+                let extent = extent(&area, self.areas.len());
+                self.extents.as_mut().and_then(|all| all.remove(&extent));
             }
         }
     }
@@ -62,7 +65,8 @@ impl Patches {
 
     fn met(&self, low: Coord<f64>, high: Coord<f64>) -> impl Iterator<Item = usize> + '_ {
         let wanted = AABB::from_corners([low.x, low.y], [high.x, high.y]);
-        let found = self.extents.locate_in_envelope_intersecting(&wanted);
+        let extents = self.extents.iter();
+        let found = extents.flat_map(move |all| all.locate_in_envelope_intersecting(&wanted));
         found.map(|extent| extent.data)
     }
 }

@@ -7,7 +7,7 @@ use crate::plane::{lerp, quad_angles, quad_area, quad_coordinates, quad_is_conve
 use crate::shape::Cell;
 
 /// Points this near to a line, as a share of the quad's size, are on it.
-const ON: f64 = 1e-7;
+pub(super) const ON: f64 = 1e-7;
 
 /// A cell that fills less than this share of its quad has been cut off by the
 /// region's edge, and not just by a centre.
@@ -18,22 +18,22 @@ const FULL: f64 = 0.85;
 pub(super) struct Lattice {
     pub(super) quad: Quad,
     /// Between columns and between rows, each with the lower cells on its left.
-    lines: [Vec<Line>; 2],
+    pub(super) lines: [Vec<Line>; 2],
     /// Where the grid begins and ends along x and y, in the same way.
     ends: [[Line; 2]; 2],
     /// Whether the grid ends before its quad does, along x and along y.
     short: [bool; 2],
     /// Half the width of a path.
-    half: f64,
+    pub(super) half: f64,
     /// Size of the quad.
-    size: f64,
+    pub(super) size: f64,
 }
 
 /// A cell, or one of the parts that a region of any shape leaves of it.
 #[derive(Debug)]
 pub(super) struct Piece {
     pub(super) area: Area,
-    cell: Cell,
+    pub(super) cell: Cell,
 }
 
 impl Lattice {
@@ -93,7 +93,7 @@ impl Lattice {
     }
 
     /// The lines that meet inside the areas, and where.
-    fn meetings(&self, inside: &[Area]) -> Vec<(&Line, &Line, Coord<f64>)> {
+    pub(super) fn meetings(&self, inside: &[Area]) -> Vec<(&Line, &Line, Coord<f64>)> {
         let mut found = Vec::new();
         for column in &self.lines[0] {
             let crossings = self.lines[1].iter();
@@ -110,39 +110,6 @@ impl Lattice {
         meetings.map(|(_, _, at)| self.placed(shape, at)).collect()
     }
 
-    /// What both paths cover at each crossing inside the areas; whole quads, which
-    /// may go on beyond. Their corners are vertices of the paths, to the last
-    /// digit, so that no hair joins the arms around a corner.
-    pub(super) fn crossings(&self, inside: &[Area], paths: &[Area]) -> Vec<Area> {
-        let mut vertices: Vec<Coord<f64>> = paths
-            .iter()
-            .flat_map(Area::rings)
-            .flatten()
-            .copied()
-            .collect();
-        vertices.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-        let on = ON * self.size;
-        let vertex = |p: Coord<f64>| {
-            let first = vertices.partition_point(|v| v.x < p.x - on);
-            let near = vertices[first..].iter().take_while(|v| v.x <= p.x + on);
-            let nearest = near.min_by(|a, b| dist(**a, p).total_cmp(&dist(**b, p)));
-            nearest.filter(|v| dist(**v, p) <= on).copied().unwrap_or(p)
-        };
-        let sides = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)];
-        let quad = |column: &Line, row: &Line| -> Option<Area> {
-            let corner = |(x, y): (f64, f64)| {
-                let met = column.moved(x * self.half).meets(&row.moved(y * self.half));
-                met.map(vertex)
-            };
-            let ring: Option<Vec<Coord<f64>>> = sides.into_iter().map(corner).collect();
-            Some(Area::new(ring?, Vec::new()))
-        };
-        let meetings = self.meetings(inside).into_iter();
-        meetings
-            .filter_map(|(column, row, _)| quad(column, row))
-            .collect()
-    }
-
     /// A shape whose upright is that of the grid, mirrored with it.
     fn placed(&self, shape: Primitive, at: Coord<f64>) -> Area {
         let local = Local::new(self.quad);
@@ -154,49 +121,31 @@ impl Lattice {
         Area::new(ring.collect(), Vec::new())
     }
 
-    /// All that paths do not cover: cells and centres that go on beyond the areas
-    /// and overlap each other. Cells as the areas' edges and centres cut them have
-    /// those edges up to rounding, which would leave paths as thin as a hair along
-    /// them.
-    pub(super) fn beside(
+    /// The cells of areas.
+    pub(super) fn cells(&self, watch: &Watch<'_>, inside: &[Area]) -> Result<Vec<Piece>, Failure> {
+        self.some_cells(watch, inside, |_| true)
+    }
+
+    /// The cells of areas for which `wanted` holds, by column and row.
+    pub(super) fn some_cells(
         &self,
         watch: &Watch<'_>,
         inside: &[Area],
-        centres: &[Area],
-    ) -> Result<Vec<Area>, Failure> {
-        let points: Vec<Coord<f64>> = inside
-            .iter()
-            .flat_map(|a| a.outer.iter().copied())
-            .collect();
-        let (low, high) = crate::plane::extent(&points);
-        let more = (high - low) * 0.1
-            + Coord {
-                x: self.half,
-                y: self.half,
-            };
-        let wide = box_along(&[low - more, high + more], Coord { x: 1.0, y: 0.0 });
-        let wide = Area::new(wide.to_vec(), Vec::new());
-        let mut found: Vec<Area> = self
-            .cells(watch, &[wide])?
-            .into_iter()
-            .map(|piece| piece.area)
-            .collect();
-        found.extend_from_slice(centres);
-        Ok(found)
-    }
-
-    /// The cells of areas.
-    pub(super) fn cells(&self, watch: &Watch<'_>, inside: &[Area]) -> Result<Vec<Piece>, Failure> {
+        wanted: impl Fn([usize; 2]) -> bool,
+    ) -> Result<Vec<Piece>, Failure> {
         let of = [self.lines[0].len() + 1, self.lines[1].len() + 1];
+        let rows_of = |column: usize| (0..of[1]).map(move |row| [column, row]);
         let mut found = Vec::new();
-        let columns = strips(watch, inside.to_vec(), &self.lines[0], self.half)?;
+        let any: Vec<bool> = (0..of[0])
+            .map(|column| rows_of(column).any(&wanted))
+            .collect();
+        let columns = strips(watch, inside.to_vec(), &self.lines[0], self.half, &any)?;
         for (column, strip) in columns.into_iter().enumerate() {
-            let rows = strips(watch, strip, &self.lines[1], self.half)?;
+            let these: Vec<bool> = rows_of(column).map(&wanted).collect();
+            let rows = strips(watch, strip, &self.lines[1], self.half, &these)?;
             for (row, areas) in rows.into_iter().enumerate() {
-                let cell = Cell {
-                    at: [column, row],
-                    of,
-                };
+                let at = [column, row];
+                let cell = Cell { at, of };
                 found.extend(areas.into_iter().map(|area| Piece { area, cell }));
             }
         }
@@ -336,21 +285,31 @@ fn reached(quad: &Quad, area: &Area) -> Option<Quad> {
 }
 
 /// Areas between lines that have what comes first on their left; halved again and
-/// again, so that each is cut by few lines.
+/// again, so that each is cut by few lines. What is not wanted is left empty.
 fn strips(
     watch: &Watch<'_>,
     areas: Vec<Area>,
     lines: &[Line],
     half: f64,
+    wanted: &[bool],
 ) -> Result<Vec<Vec<Area>>, Failure> {
     watch.tick()?;
+    if !wanted.contains(&true) {
+        return Ok(vec![Vec::new(); wanted.len()]);
+    }
     if lines.is_empty() {
         return Ok(vec![areas]);
     }
     let middle = lines.len() / 2;
     let [before, after] = split(&areas, &lines[middle], half);
-    let mut found = strips(watch, before, &lines[..middle], half)?;
-    found.extend(strips(watch, after, &lines[middle + 1..], half)?);
+    let mut found = strips(watch, before, &lines[..middle], half, &wanted[..=middle])?;
+    found.extend(strips(
+        watch,
+        after,
+        &lines[middle + 1..],
+        half,
+        &wanted[middle + 1..],
+    )?);
     Ok(found)
 }
 

@@ -40,6 +40,7 @@
 //! it; concave regions need a boolean for each cut that meets a concave part.
 
 mod cells;
+mod paths;
 mod sizes;
 mod symmetry;
 
@@ -120,7 +121,7 @@ pub(crate) fn grid(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let watch = scope.watch();
     let cells = lattice.cells(&watch, &inside)?;
     let mut paths = if width > 0.0 {
-        difference(&inside, &lattice.beside(&watch, &inside, &whole)?)
+        lattice.paths(&watch, &inside, &cells, &whole)?
     } else {
         Vec::new()
     };
