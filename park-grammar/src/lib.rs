@@ -3,6 +3,8 @@
 pub mod audit;
 mod derive;
 mod error;
+#[cfg(feature = "gltf")]
+pub mod gltf;
 mod grammar;
 pub mod grammars;
 mod index;

@@ -3,8 +3,11 @@
 
 mod outline;
 
+use std::path::{Path, PathBuf};
+
 use park_grammar::geo_types::{Coord, LineString, Polygon};
 use park_grammar::scene::Piece;
+use park_grammar::syntax::{parse, print, Sources};
 use park_grammar::{grammars, DeriveOptions, Grammar, Scene};
 
 /// A park, by its corners in metres.
@@ -23,12 +26,17 @@ fn parks() -> Vec<(String, Polygon<f64>)> {
         .collect()
 }
 
-/// The parks of a folder of GeoJSON files that `URBAN_LAYOUT_PARKS` names.
+/// The repository's parks (a package has none), and those of a folder of GeoJSON
+/// files that `URBAN_LAYOUT_PARKS` names.
 fn more() -> Vec<(String, Polygon<f64>)> {
-    let Some(folder) = std::env::var_os("URBAN_LAYOUT_PARKS") else {
-        return Vec::new();
-    };
-    let files = std::fs::read_dir(folder).expect("a folder");
+    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data/parks");
+    let named = std::env::var_os("URBAN_LAYOUT_PARKS").map(PathBuf::from);
+    let folders = own.is_dir().then_some(own).into_iter().chain(named);
+    folders.flat_map(folder).collect()
+}
+
+fn folder(path: PathBuf) -> Vec<(String, Polygon<f64>)> {
+    let files = std::fs::read_dir(path).expect("a folder");
     let mut files: Vec<_> = files.map(|file| file.expect("a file").path()).collect();
     files.sort();
     let read = |path: std::path::PathBuf| {
@@ -146,11 +154,11 @@ fn derive(grammar: &Grammar, park: &Polygon<f64>, seed: u64) -> Result<Scene, St
 
 fn check(name: &str) {
     let known = grammars::named(name).expect("in the library");
-    let grammar = known.grammar().expect("reads");
+    let grammar = known.grammar().unwrap_or_else(|error| panic!("{error}"));
     let long = std::env::var_os("URBAN_LAYOUT_LONG").is_some();
     let mut broken = Vec::new();
     for (park, outline) in parks().into_iter().chain(more()) {
-        for seed in 0..if long { 25 } else { 3 } {
+        for seed in 0..if long { 25 } else { 2 } {
             match derive(&grammar, &outline, seed) {
                 Ok(scene) => {
                     let found = scene.audit(&outline).violations;
@@ -213,10 +221,30 @@ fn allotments() {
     check("allotments");
 }
 
-/// The notes' own words, with rules for the names that they leave open. On a
-/// square of 40 m.
-fn notes(rules: &str) -> Scene {
-    let square = park(&[(0., 0.), (40., 0.), (40., 40.), (0., 40.)], &[]);
+#[test]
+fn texts_are_read_as_they_are_printed() {
+    for one in &grammars::ALL {
+        let tree = |text: &str| {
+            let mut sources = Sources::default();
+            sources.add(one.name, text);
+            parse(&sources, 0).unwrap_or_else(|faults| panic!("{}\n{faults}", one.name))
+        };
+        let written = tree(one.text);
+        assert_eq!(tree(&print(&written)), written, "{}", one.name);
+        assert_eq!(grammars::named(one.name), Some(one));
+        // What a landscape architect reads first says what the park is.
+        assert!(
+            written.items[0].comments.len() > 3 || written.head.len() > 3,
+            "{}",
+            one.name
+        );
+    }
+}
+
+/// The notes' own words, with rules for the names that they leave open, on a
+/// square.
+fn notes(side: f64, rules: &str) -> Scene {
+    let square = park(&[(0., 0.), (side, 0.), (side, side), (0., side)], &[]);
     let grammar = Grammar::new(&format!("grammar 1\n{rules}")).expect("reads");
     let scene = derive(&grammar, &square, 0).expect("derives");
     let audit = scene.audit(&square);
@@ -232,6 +260,7 @@ fn count(scene: &Scene, material: &str) -> usize {
 #[test]
 fn the_notes_nested_grid() {
     let scene = notes(
+        40.0,
         "PathWidth = 2
          Region -> Grid(3 {2, 6, 2} , 2 {6} ) { NestedRegion } { CementPath }
          NestedRegion -> Grid { TreeRegion } { StonePath }
@@ -249,6 +278,7 @@ fn the_notes_nested_grid() {
 #[test]
 fn the_notes_irregular_grid() {
     let scene = notes(
+        40.0,
         "Region -> Grid (3 {[7,15]a[-15,15]}, 2) { NonWalkableRegion }
          NonWalkableRegion -> Grid (2 {a[-5,5]}, {[1.5,4]a[-25,25]}) { PlantedRegion } {}
          PlantedRegion -> Choose { GrassRegion, BushRegion, Plant1Region, Plant2Region /*, … */ }
@@ -263,4 +293,46 @@ fn the_notes_irregular_grid() {
     let planted = planted.map(|material| count(&scene, material));
     assert!(planted.iter().all(|&n| n > 0), "{planted:?}");
     assert!(planted.iter().sum::<usize>() >= 6 * 2 * 4, "{planted:?}");
+}
+
+#[test]
+fn the_notes_circular_paths() {
+    // The notes have the centre's block first here, and regions first where they
+    // say what the rule is: that is the order.
+    let scene = notes(
+        40.0,
+        "CentreRegionSize = 5
+         Region -> CastRays(CentrePoint [CentreRegionSize], CastToList)
+             { CutRegion } { Gravel } { CentreRegion }
+         CentrePoint -> ScatterCircles(1 {15})
+         CastToList -> Corners(Region)
+         CentreRegion -> Fountain
+         CutRegion -> Grass
+         Grass -> GREEN_GRASS",
+    );
+    assert_eq!(count(&scene, "GREEN_GRASS"), 4);
+    assert_eq!(scene.objects.len(), 1);
+    // The circle of 15 m lies in the square.
+    let at = scene.objects[0].at;
+    assert!((15.0..=25.0).contains(&at.x) && (15.0..=25.0).contains(&at.y));
+    // On the chords of a polygon of 36 corners.
+    let round = |piece: &&Piece| {
+        let ring = piece.polygon.exterior();
+        ring.coords()
+            .all(|c| ((c.x - at.x).hypot(c.y - at.y) - 5.0).abs() < 0.02)
+    };
+    assert_eq!(scene.pieces.iter().filter(round).count(), 1);
+}
+
+#[test]
+fn the_notes_free_form() {
+    let scene = notes(
+        80.0,
+        "Region -> VoronoiSmoothed(CircleRegions) { SmoothRegions } { Path }
+         CircleRegions -> ScatterCircles(5 {[5-10]})
+         SmoothRegions -> GREEN_GRASS
+         Path -> Gravel",
+    );
+    assert_eq!(count(&scene, "GREEN_GRASS"), 5);
+    assert!(count(&scene, "Gravel") >= 1);
 }

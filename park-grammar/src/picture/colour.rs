@@ -7,16 +7,16 @@ pub(super) fn mixed(first: &str, second: &str, share: f64) -> String {
     format!("#{:02x}{:02x}{:02x}", part(0), part(1), part(2))
 }
 
-pub(super) fn darker(colour: &str, share: f64) -> String {
+pub(crate) fn darker(colour: &str, share: f64) -> String {
     mixed(colour, "#1e2a16", share)
 }
 
-pub(super) fn lighter(colour: &str, share: f64) -> String {
+pub(crate) fn lighter(colour: &str, share: f64) -> String {
     mixed(colour, "#ffffff", share)
 }
 
 /// Red, green and blue from 0 to 255; grey for what is no colour.
-pub(super) fn parts(colour: &str) -> [f64; 3] {
+pub(crate) fn parts(colour: &str) -> [f64; 3] {
     let digits = colour.strip_prefix('#').unwrap_or_default();
     [0, 2, 4].map(|k| {
         let part = digits.get(k..k + 2);

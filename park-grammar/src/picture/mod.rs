@@ -20,7 +20,11 @@ use std::collections::BTreeMap;
 
 use geo_types::Coord;
 
+#[cfg(feature = "gltf")]
+pub(crate) use colour::{darker, lighter, parts};
 pub use sheet::{Anchor, Lettering, SheetOptions, Style, ViewersFont};
+#[cfg(feature = "gltf")]
+pub(crate) use standing::has_crown;
 
 use crate::scene::Scene;
 use pen::Pen;

@@ -164,7 +164,7 @@ fn shade(pen: &mut Pen, object: &Object) {
 }
 
 /// Whether an object reaches farther above the ground than on it.
-pub(super) fn has_crown(object: &Object) -> bool {
+pub(crate) fn has_crown(object: &Object) -> bool {
     object.spread > CROWN * object.radius
 }
 

@@ -32,6 +32,9 @@ const REACH: f64 = 4.0;
 /// What is told from zero, as a share.
 const TINY: f64 = 1e-9;
 
+/// So many areas may overlap.
+const FEW: usize = 16;
+
 /// Corners this near to a right angle, by the cosine, are right.
 const RIGHT: f64 = 1e-6;
 
@@ -106,7 +109,8 @@ impl Band {
             cover: Vec::new(),
             flanks: Vec::new(),
         };
-        for (mover, [start, end]) in movers.iter().zip(&shapes) {
+        let joints = shaping.joints(&movers);
+        for ((mover, [start, end]), joint) in movers.iter().zip(&shapes).zip(joints) {
             let mut ring = vec![mover.a, mover.b];
             ring.extend(&end.chain);
             ring.extend([end.tip, start.tip]);
@@ -129,10 +133,11 @@ impl Band {
                 .map(|(_, _, segment)| *segment)
                 .collect();
             band.cell(mover, cells, &others, depth);
+            if let Some(joint) = joint {
+                band.wedge(joint, depth, &edges);
+            }
         }
-        for joint in shaping.joints(&movers) {
-            band.wedge(joint, depth, &edges);
-        }
+        band.cover = merged(band.cover);
         band
     }
 
@@ -209,6 +214,22 @@ impl Band {
     }
 }
 
+/// Areas made one where they are many: neighbours first, so that no step meets
+/// many that overlap. Along a fine curve all cells of a deep band do.
+pub(crate) fn merged(mut areas: Vec<Area>) -> Vec<Area> {
+    if areas.len() <= FEW {
+        return areas;
+    }
+    while areas.len() > FEW {
+        let before = areas.len();
+        areas = areas.chunks(FEW).flat_map(union).collect();
+        if areas.len() == before {
+            break;
+        }
+    }
+    union(&areas)
+}
+
 /// A corner of more than half a turn between two movers.
 struct Joint {
     at: Coord<f64>,
@@ -253,26 +274,22 @@ impl Shaping<'_> {
             .collect()
     }
 
-    fn joints(&self, movers: &[Mover]) -> Vec<Joint> {
-        let mut found = Vec::new();
-        for (k, before) in movers.iter().enumerate() {
+    /// For each mover the joint at its end, if there is one.
+    fn joints(&self, movers: &[Mover]) -> Vec<Option<Joint>> {
+        let joint = |(k, before): (usize, &Mover)| {
             // The next mover of the ring, if it begins where this one ends.
             let next = movers.get(k + 1).filter(|m| m.ring == before.ring);
             let first = || movers.iter().find(|m| m.ring == before.ring);
-            let Some(after) = next.or_else(first).filter(|m| m.a == before.b) else {
-                continue;
-            };
+            let after = next.or_else(first).filter(|m| m.a == before.b)?;
             let (u, v) = (unit(before.b - before.a), unit(after.b - after.a));
             let turn = cross(u, v).atan2(dot(u, v));
-            if turn > 0.0 {
-                found.push(Joint {
-                    at: after.a,
-                    sides: [before.inward, after.inward],
-                    turn,
-                });
-            }
-        }
-        found
+            (turn > 0.0).then_some(Joint {
+                at: after.a,
+                sides: [before.inward, after.inward],
+                turn,
+            })
+        };
+        movers.iter().enumerate().map(joint).collect()
     }
 
     /// Where the moved edge ends at one of its ends.

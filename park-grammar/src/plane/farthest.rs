@@ -4,17 +4,21 @@ use geo_types::Coord;
 
 use super::{cross, dist, dot, lerp, nearest_on, right, sides, unit, Area, Segment};
 
-/// The search by cells ends at cells this small, as a share of the area's size.
-const FINEST: f64 = 1e-3;
+/// The search by cells ends where none can hold what is better by more than this
+/// share of the best.
+const FINEST: f64 = 2e-3;
+
+/// Cells looked at, at most: long strips have as good places all along.
+const CELLS: usize = 20_000;
 
 /// Candidates of the search that are climbed from.
-const CANDIDATES: usize = 12;
+const CANDIDATES: usize = 24;
 
 /// Rounds of climbing at most.
 const ROUNDS: usize = 40;
 
-/// Constraints of a step at most: the nearest ones.
-const ACTIVE: usize = 40;
+/// Constraints of each sort on a step, at most: the nearest ones.
+const ACTIVE: usize = 10;
 
 /// The point of an area that is farthest from some segments, and how far it is;
 /// of several the centre of mass if it is one.
@@ -37,7 +41,8 @@ pub(crate) fn farthest(area: &Area, from: &[Segment]) -> (Coord<f64>, f64) {
         found.push((centroid, away(centroid)));
     }
     found.extend(area.outer.iter().map(|&p| (p, away(p))));
-    let best = |found: &[(Coord<f64>, f64)]| found.iter().map(|f| f.1).fold(0.0, f64::max);
+    let mut most = found.iter().map(|f| f.1).fold(0.0, f64::max);
+    let mut count = 0;
     // Middle and half of the side.
     let mut cells = vec![(lerp(low, high, 0.5), 0.5 * size)];
     while let Some((_, half)) = cells.first().copied() {
@@ -51,14 +56,15 @@ pub(crate) fn farthest(area: &Area, from: &[Segment]) -> (Coord<f64>, f64) {
             let far = away(at);
             if inside {
                 found.push((at, far));
+                most = most.max(far);
             }
             next.push((at, far));
         }
-        let most = best(&found);
-        if half < FINEST * size {
+        count += next.len();
+        if reach < FINEST * most || count > CELLS {
             break;
         }
-        next.retain(|&(_, far)| far + reach > most + FINEST * size);
+        next.retain(|&(_, far)| far + reach > most * (1.0 + FINEST));
         let quarter = 0.5 * half;
         cells = next
             .iter()
@@ -76,7 +82,6 @@ pub(crate) fn farthest(area: &Area, from: &[Segment]) -> (Coord<f64>, f64) {
     // Stable, so that the centre of mass stays the first among equals.
     found.sort_by(|a, b| b.1.total_cmp(&a.1));
     let tied = 1e-9 * size;
-    let most = best(&found);
     let mut top = found
         .iter()
         .find(|f| f.1 >= most - tied)
@@ -89,14 +94,14 @@ pub(crate) fn farthest(area: &Area, from: &[Segment]) -> (Coord<f64>, f64) {
     }
     let mut climbed: Vec<Coord<f64>> = Vec::new();
     for &(at, far) in &found {
-        if climbed.len() >= CANDIDATES || far + 2.0 * FINEST * size < most {
+        if climbed.len() >= CANDIDATES || far < most * (1.0 - 4.0 * FINEST) {
             break;
         }
-        if climbed.iter().any(|&c| dist(c, at) < 10.0 * FINEST * size) {
+        if climbed.iter().any(|&c| dist(c, at) < 20.0 * FINEST * most) {
             continue;
         }
         climbed.push(at);
-        let reached = climb(area, from, at, &away, 4.0 * FINEST * size);
+        let reached = climb(area, from, at, &away, 8.0 * FINEST * most);
         if reached.1 > top.1 + tied {
             top = reached;
         }
@@ -164,15 +169,21 @@ fn step(
     }
     planes.sort_by(|a, b| a.offset.total_cmp(&b.offset));
     planes.truncate(ACTIVE);
-    for (a, b) in area.rings().flat_map(|ring| sides(ring)) {
-        if dist(nearest_on(a, b, at), at) <= 2.0 * trust {
-            let inward = right(unit(b - a));
-            planes.push(Plane {
-                slope: inward,
-                offset: dot(at - a, inward).max(0.0),
-                share: 0.0,
-            });
-        }
+    let mut walls: Vec<(f64, Segment)> = area
+        .rings()
+        .flat_map(|ring| sides(ring))
+        .map(|(a, b)| (dist(nearest_on(a, b, at), at), (a, b)))
+        .filter(|wall| wall.0 <= 2.0 * trust)
+        .collect();
+    walls.sort_by(|p, q| p.0.total_cmp(&q.0));
+    walls.truncate(ACTIVE);
+    for (_, (a, b)) in walls {
+        let inward = right(unit(b - a));
+        planes.push(Plane {
+            slope: inward,
+            offset: dot(at - a, inward).max(0.0),
+            share: 0.0,
+        });
     }
     for (x, y) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
         planes.push(Plane {

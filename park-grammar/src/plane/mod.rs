@@ -8,6 +8,7 @@ mod band;
 mod boolean;
 mod boxes;
 mod climb;
+mod curve;
 mod erode;
 mod farthest;
 mod inset;
@@ -20,18 +21,20 @@ mod slice;
 mod smooth;
 mod split;
 mod stroke;
+mod trim;
 mod voronoi;
 mod weld;
 
 use geo_types::{Coord, LineString, Polygon};
 
-pub(crate) use band::{Band, Bound, Ends};
+pub(crate) use band::{inset, merged, Band, Bound, Ends};
 pub(crate) use boolean::{difference, intersection, slice, union};
 pub(crate) use boxes::{
     box_along, named_by, oriented_box, quad_angles, quad_area, quad_coordinates, quad_extent,
     quad_is_convex, quad_point,
 };
 pub(crate) use climb::climb;
+pub(crate) use curve::{curve, Course};
 pub(crate) use erode::erode;
 pub(crate) use farthest::farthest;
 pub(crate) use inset::{inset_lines, keep_apart, strip, Corner, Segment};
@@ -44,6 +47,7 @@ pub(crate) use slice::sliced;
 pub(crate) use smooth::{smooth, Smoothing};
 pub(crate) use split::{clipped, split, Line};
 pub(crate) use stroke::{circle, stroke};
+pub(crate) use trim::trim;
 pub(crate) use voronoi::{aside, heart, leeway, Border, Diagram, Site};
 pub(crate) use weld::{weld, Weld};
 

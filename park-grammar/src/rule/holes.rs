@@ -17,7 +17,9 @@ use super::peel::within;
 use super::{Arguments, Ask, Output, Partition};
 use crate::derive::{Number, Scope, Value};
 use crate::error::Failure;
-use crate::plane::{cross, dist, dot, lerp, sides, slice, split, unit, Area, Line, Ring, Segment};
+use crate::plane::{
+    cross, dist, dot, lerp, sides, slice, split, trim, unit, Area, Line, Ring, Segment,
+};
 use crate::shape::{Heritage, Region, Role};
 
 /// Vertices that turn by more than this are corners, radians.
@@ -65,6 +67,8 @@ fn split_region(region: Region) -> Vec<Region> {
     }
     let heritage = Heritage::new(&region, SPLIT);
     let pieces = without_holes(&region.area, region.local.axes());
+    let (low, high) = region.area.extent();
+    let pieces = trim(pieces, dist(low, high));
     let pieces = pieces.into_iter().map(|area| {
         let local = within(&region, &area);
         let mut piece = heritage.piece(area, local, |_, _| Some(Role::Seam));
@@ -104,7 +108,13 @@ fn without_holes(area: &Area, axes: [Coord<f64>; 2]) -> Vec<Area> {
         });
         let line = Line::new(at, best.unwrap_or(Coord { x: 1.0, y: 0.0 }));
         let [before, after] = split(std::slice::from_ref(&piece), &line, 0.0);
-        left.extend(before.into_iter().chain(after));
+        let fewer = |part: &Area| part.holes.len() < piece.holes.len();
+        if before.iter().chain(&after).all(fewer) {
+            left.extend(before.into_iter().chain(after));
+        } else {
+            // A hole too small for a line to meet.
+            done.push(piece);
+        }
     }
     done.reverse();
     done

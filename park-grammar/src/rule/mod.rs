@@ -2,6 +2,7 @@
 
 mod arguments;
 mod circles;
+pub(crate) mod contract;
 pub(crate) mod control;
 mod darts;
 mod distribute;
@@ -9,15 +10,19 @@ mod fit;
 mod fit_rectangle;
 mod grid;
 pub(crate) mod holes;
+mod parts;
 mod peel;
 pub(crate) mod place;
 pub(crate) mod points;
 pub(crate) mod primitive;
 mod rays;
+mod rings;
 mod runs;
 mod scatter;
 mod sites;
+mod smooth;
 pub(crate) mod smoothing;
+mod split_along;
 mod sweep;
 mod target;
 mod voronoi;
@@ -123,6 +128,10 @@ pub(crate) const OPERATORS: &[Operator] = &[
     operator("FitRectangle", Deed::Divide(fit_rectangle::fit_rectangle)),
     operator("CastRays", Deed::Divide(rays::rays)),
     operator("Peel", Deed::Part(peel::peel)),
+    operator("Contract", Deed::Part(contract::contract)),
+    operator("Rings", Deed::Part(rings::rings)),
+    operator("Smooth", Deed::Part(smooth::smooth)),
+    operator("SplitAlong", Deed::Part(split_along::split_along)),
     operator("SplitHoles", Deed::Part(holes::split_holes)),
     operator("VoronoiRegions", Deed::Divide(voronoi::voronoi)),
     operator("VoronoiSmoothed", Deed::Divide(voronoi::voronoi)),
@@ -180,6 +189,13 @@ pub(crate) const WORDS: &[&str] = &[
     // Peel and others.
     "CornersOrthogonal",
     "SplitHoles",
+    "POLE",
+    "inset",
+    "scale",
+    "straight",
+    "smooth",
+    "arc",
+    "sinus",
     // Smoothing of borders.
     "none",
     "average",

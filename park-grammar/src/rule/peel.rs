@@ -11,8 +11,8 @@
 //! **Size.** The notes give it as the second value, and in their example as the
 //! number of the first branch; both are understood. A length with its unit is
 //! metres; a percentage is a share; of bare numbers those below 1 are shares and
-//! all others metres. A share of 1 is the depth at which nothing would be left: the
-//! distance to the land that is farthest from the selection (for the whole boundary
+//! all others metres. A share of 1 is the depth at which nothing is left (with the
+//! mitres of corners that turn inwards it may be so a little before): the distance to the land that is farthest from the selection (for the whole boundary
 //! the radius of the largest circle inside), or, if that is less, how far the region
 //! reaches behind the line of a selected edge (the most of all), so that 0.5 halves
 //! a rectangle from one of its sides.
@@ -53,8 +53,8 @@ use super::{holes, Arguments, Ask, Output, Partition};
 use crate::derive::{outputs, Number};
 use crate::error::Failure;
 use crate::plane::{
-    box_along, difference, dist, farthest, intersection, lerp, named_by, nearest_on, right, unit,
-    Area, Band, Bound, Ends, Segment,
+    box_along, difference, dist, farthest, intersection, lerp, named_by, nearest_on, right, trim,
+    unit, Area, Band, Bound, Ends, Segment,
 };
 use crate::select::{named, Selection, Step};
 use crate::shape::{Edge, Heritage, Local, Mark, Origin, Region, Role};
@@ -145,7 +145,7 @@ pub(crate) fn peel(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
         }
         if rests.is_empty() {
             let deep: f64 = depths[..=k].iter().sum();
-            let error = format!("a strip of {deep:.1} m leaves nothing of this region; less than {whole:.1} m would");
+            let error = format!("a strip of {deep:.1} m leaves nothing of this region");
             return Err(Failure::unfit(span, error));
         }
         strips.push(strip);
@@ -185,19 +185,27 @@ fn heads(ask: &mut Ask<'_, '_>) -> Result<Vec<(Number, Span)>, Failure> {
     Ok(sizes)
 }
 
-/// A size in metres.
-fn depth(size: Number, whole: f64, span: Span) -> Result<f64, Failure> {
-    let share = match size.unit {
+/// Whether a size is a share: a percentage, or a bare number below 1.
+pub(crate) fn is_share(size: Number) -> bool {
+    match size.unit {
         Unit::Percent => true,
-        Unit::None => size.value < 1.0,
+        Unit::None => size.value.abs() < 1.0,
         _ => false,
-    };
-    let metres = if share {
+    }
+}
+
+/// A size in metres, a share being one of `whole`.
+pub(crate) fn metres(size: Number, whole: f64) -> Option<f64> {
+    if is_share(size) {
         size.share(1.0).map(|share| share * whole)
     } else {
         size.metres()
-    };
-    match metres {
+    }
+}
+
+/// A size in metres that is one.
+pub(crate) fn depth(size: Number, whole: f64, span: Span) -> Result<f64, Failure> {
+    match metres(size, whole) {
         Some(metres) if metres > 0.0 && metres.is_finite() => Ok(metres),
         Some(_) => Err(Failure::fault(span, "a size must be positive")),
         None => Err(Failure::fault(span, "a length or a share was expected")),
@@ -260,17 +268,20 @@ fn once(region: &Region, selection: &Selection, depth: f64, way: Way) -> [Vec<Re
     let land = std::slice::from_ref(&band.land);
     let mut rest = difference(land, &band.cover);
     if let Some(smoother) = way.smoother {
+        rest = trim(rest, size(region));
         rest = smoothed(region, &band, rest, &smoother.within(2.0 * depth));
         let least = Band::new(&bounds, LEAST * depth, way.ends);
         rest = difference(&rest, &least.cover);
     }
     let least = SLIVER * region.area.size();
+    rest = trim(rest, size(region));
     rest.retain(|area| area.size() > least);
     let mut strip = if way.smoother.is_some() {
         difference(land, &rest)
     } else {
         intersection(land, &band.cover)
     };
+    strip = trim(strip, size(region));
     strip.retain(|area| area.size() > least);
 
     let bases = steps.iter().enumerate().flat_map(|(ring, steps)| {
@@ -319,17 +330,20 @@ fn smoothed(region: &Region, band: &Band, rest: Vec<Area>, smoother: &Smoother) 
 
 impl Cut<'_> {
     /// The edge that a new one was moved from: the nearest, of several the one
-    /// that it runs along most.
+    /// that it runs along most, of those the one whose side has the lowest number:
+    /// that is so in mirror images too.
     fn mover(&self, a: Coord<f64>, b: Coord<f64>) -> Option<&Edge> {
         let (at, along) = (lerp(a, b, 0.5), unit(b - a));
         let key = |base: &Base<'_>| {
             let away = dist(nearest_on(base.a, base.b, at), at);
             let turned = crate::plane::dot(unit(base.b - base.a), along).abs();
-            ((away / self.on).round(), -turned)
+            let rounded = |x: f64, to: f64| (x / to).round();
+            (rounded(away, self.on), rounded(-turned, ON), base.edge.side)
         };
         let found = self.bases.iter().min_by(|x, y| {
             let (x, y) = (key(x), key(y));
-            x.0.total_cmp(&y.0).then(x.1.total_cmp(&y.1))
+            let turned = x.1.total_cmp(&y.1);
+            x.0.total_cmp(&y.0).then(turned).then(x.2.cmp(&y.2))
         });
         found.map(|base| base.edge)
     }

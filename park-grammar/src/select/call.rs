@@ -7,11 +7,11 @@ use super::frame::Frame;
 use super::{angle, continuous, grow, history, near, part, sector, Selection};
 use crate::derive::{Number, Scope, Spot, Value};
 use crate::error::Failure;
-use crate::rule::{points, Arguments};
+use crate::rule::{contract, points, Arguments};
 use crate::syntax::ast::{Argument, Block, Expr, ExprKind, Name, Operation, Span, Unit};
 
 /// Selectors that take values, for hints.
-pub(crate) const CALLS: [&str; 9] = [
+pub(crate) const CALLS: [&str; 10] = [
     "Angle",
     "Sector",
     "Grow",
@@ -21,6 +21,7 @@ pub(crate) const CALLS: [&str; 9] = [
     "Nearest",
     "Part",
     "Length",
+    "Contract",
 ];
 
 /// A selector with values, such as `Part(OUTER, [0, 0.5])`, or an operation that
@@ -41,6 +42,9 @@ pub(crate) fn call(
     };
     if points::gives_points(&operation) {
         return points::of_operation(scope, &operation, name.span);
+    }
+    if name.text == "Contract" {
+        return contract::lines(scope, &operation);
     }
     let mut arguments = Arguments::new(&operation);
     let selection = match name.text.as_str() {
