@@ -134,7 +134,14 @@ mod tests {
     /// In a corner that turns inwards the widths on both sides are kept.
     #[test]
     fn inner_corners_are_round() {
-        let l = area(&[(0., 0.), (0., 10.), (5., 10.), (5., 5.), (10., 5.), (10., 0.)]);
+        let l = area(&[
+            (0., 0.),
+            (0., 10.),
+            (5., 10.),
+            (5., 5.),
+            (10., 5.),
+            (10., 0.),
+        ]);
         let left = erode(&l, &[vec![0.0, 0.0, 1.0, 1.0, 0.0, 0.0]]);
         // A quarter of a polygon of 36 corners and radius 1.
         let quarter = 9.0 * 0.5 * (std::f64::consts::PI / 18.0).sin();

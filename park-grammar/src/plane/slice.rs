@@ -10,9 +10,8 @@ use super::{Area, Ring};
 
 /// What lines cut areas into. A line that ends inside cuts nothing off.
 pub(crate) fn sliced(areas: &[Area], lines: &[Vec<Coord<f64>>]) -> Vec<Area> {
-    let pairs = |points: &[Coord<f64>]| -> Vec<[f64; 2]> {
-        points.iter().map(|c| [c.x, c.y]).collect()
-    };
+    let pairs =
+        |points: &[Coord<f64>]| -> Vec<[f64; 2]> { points.iter().map(|c| [c.x, c.y]).collect() };
     let shapes: Vec<Vec<Vec<[f64; 2]>>> = areas
         .iter()
         .map(|area| area.rings().map(|ring| pairs(ring)).collect())

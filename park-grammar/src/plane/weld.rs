@@ -38,10 +38,7 @@ impl Weld {
     }
 
     /// For rings, by the mean length of their edges.
-    pub(crate) fn for_rings<'r>(
-        tolerance: f64,
-        rings: impl IntoIterator<Item = &'r Ring>,
-    ) -> Self {
+    pub(crate) fn for_rings<'r>(tolerance: f64, rings: impl IntoIterator<Item = &'r Ring>) -> Self {
         let (mut sum, mut count) = (0.0, 0.0);
         for (a, b) in rings.into_iter().flat_map(|ring| sides(ring)) {
             sum += dist(a, b);

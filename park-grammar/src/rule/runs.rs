@@ -134,7 +134,11 @@ mod tests {
             region.local = local_beside(&region, &found[0], mirrored);
             assert_eq!(region.local.mirrored(), mirrored);
             number(&mut region, &found, 0, 0);
-            let wanted = if mirrored { [0, 0, 3, 2, 1] } else { [0, 0, 1, 2, 3] };
+            let wanted = if mirrored {
+                [0, 0, 3, 2, 1]
+            } else {
+                [0, 0, 1, 2, 3]
+            };
             assert_eq!(sides(&region), wanted.map(Some));
             // The western edge is where x is 0, walked along y.
             let at = region.local.point(coord! { x: 0.0, y: 0.0 });

@@ -19,11 +19,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// The places in the region that an expression stands for, in their order: those
 /// outside are left out, and of several at one point all but the first.
-pub(crate) fn sites(
-    scope: &mut Scope<'_>,
-    expr: &Expr,
-    most: usize,
-) -> Result<Vec<Spot>, Failure> {
+pub(crate) fn sites(scope: &mut Scope<'_>, expr: &Expr, most: usize) -> Result<Vec<Spot>, Failure> {
     let value = scope.value(expr)?;
     let found = points::spots(scope.region, value, expr.span)?;
     if found.len() > most {

@@ -135,7 +135,9 @@ impl Between<'_> {
             runs::number(&mut cell, &runs, start, from);
         } else {
             let outer = runs::longest(&runs, |label| matches!(label, Label::Boundary(_)));
-            let start = outer.or_else(|| runs::longest(&runs, |_| true)).unwrap_or(0);
+            let start = outer
+                .or_else(|| runs::longest(&runs, |_| true))
+                .unwrap_or(0);
             if let Some(run) = runs.get(start) {
                 cell.local = runs::local_beside(&cell, run, mirrored);
                 runs::number(&mut cell, &runs, start, 0);

@@ -147,11 +147,7 @@ fn pairs(at: &[Coord<f64>]) -> Vec<Link> {
     let mut all: Vec<Link> = (0..n)
         .flat_map(|a| (a + 1..n).map(move |b| [a, b]))
         .collect();
-    all.sort_by(|a, b| {
-        away(a[0], a[1])
-            .total_cmp(&away(b[0], b[1]))
-            .then(a.cmp(b))
-    });
+    all.sort_by(|a, b| away(a[0], a[1]).total_cmp(&away(b[0], b[1])).then(a.cmp(b)));
     let mut alone = vec![true; n];
     let mut links: Vec<Link> = Vec::new();
     for [a, b] in all {
@@ -351,7 +347,10 @@ mod tests {
                 .map(|k| coord! { x: angle(k).cos(), y: angle(k).sin() })
                 .collect()
         };
-        assert_eq!(links(Join::Opposites, &regular(6)), [[0, 3], [1, 4], [2, 5]]);
+        assert_eq!(
+            links(Join::Opposites, &regular(6)),
+            [[0, 3], [1, 4], [2, 5]]
+        );
         let five = links(Join::Opposites, &regular(5));
         assert!(five.iter().all(|[a, b]| [2, 3].contains(&(b - a))));
         assert!(degrees(5, &five).iter().all(|d| *d >= 1));

@@ -42,11 +42,7 @@ pub(super) struct End {
 
 impl Targets {
     /// The second argument; the first of evenly spaced directions is `from`.
-    pub(super) fn read(
-        scope: &mut Scope<'_>,
-        expr: &Expr,
-        from: f64,
-    ) -> Result<Self, Failure> {
+    pub(super) fn read(scope: &mut Scope<'_>, expr: &Expr, from: f64) -> Result<Self, Failure> {
         let frame = Frame::of(scope.region);
         let value = scope.value(expr)?;
         let wrong = || Failure::fault(expr.span, "a direction was expected");

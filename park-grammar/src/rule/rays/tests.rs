@@ -57,9 +57,15 @@ fn region((points, holed): &(Vec<Coord<f64>>, bool), motion: Motion) -> Region {
     let hole = || -> Ring {
         // Not regular: arcs of just so many steps have one more by rounding.
         let angles = (0..6).map(|k| (f64::from(k) + 0.01 * f64::from(k * k)) * 1.02 + 0.3);
-        angles.map(|a| coord! { x: 3.0 * a.cos(), y: 3.0 * a.sin() }).collect()
+        angles
+            .map(|a| coord! { x: 3.0 * a.cos(), y: 3.0 * a.sin() })
+            .collect()
     };
-    let holes = if *holed { vec![moved(&hole())] } else { Vec::new() };
+    let holes = if *holed {
+        vec![moved(&hole())]
+    } else {
+        Vec::new()
+    };
     let mut region = Region::bare(Area::new(moved(points), holes));
     crate::index::park(&mut region);
     region
@@ -99,7 +105,11 @@ fn asked(spots: Vec<Spot>, targets: Targets, rays: Rays, join: Join, width: f64)
 }
 
 fn modes() -> impl Strategy<Value = (Rays, Join)> {
-    let rays = prop_oneof![Just(Rays::Nearest), Just(Rays::Unconnected), Just(Rays::All)];
+    let rays = prop_oneof![
+        Just(Rays::Nearest),
+        Just(Rays::Unconnected),
+        Just(Rays::All)
+    ];
     let join = prop_oneof![
         Just(Join::None),
         Just(Join::Loop),
@@ -328,7 +338,8 @@ fn side_0_is_the_centre() {
             let length: f64 = arc.windows(2).map(|w| dist(w[0], w[1])).sum();
             assert!((length - 5.0 * angle).abs() < 0.02, "{length}");
             let roles = sides(cell.ring(0)).zip(&cell.edges[0]);
-            let centre = roles.filter(|(_, e)| e.origin.marks.iter().any(|m| m.role == Role::Centre));
+            let centre =
+                roles.filter(|(_, e)| e.origin.marks.iter().any(|m| m.role == Role::Centre));
             assert_eq!(centre.count(), arc.len() - 1);
         }
     }

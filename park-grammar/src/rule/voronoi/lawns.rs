@@ -202,7 +202,9 @@ pub(super) fn region(
         .collect();
     let found = runs::runs(&region, &labels);
     let outer = runs::longest(&found, |label| matches!(label, Label::Boundary(_)));
-    let start = outer.or_else(|| runs::longest(&found, |_| true)).unwrap_or(0);
+    let start = outer
+        .or_else(|| runs::longest(&found, |_| true))
+        .unwrap_or(0);
     if let Some(run) = found.get(start) {
         region.local = runs::local_beside(&region, run, parent.local.mirrored());
         runs::number(&mut region, &found, start, 0);

@@ -148,7 +148,9 @@ fn divide(region: &Region, asked: &Asked, chance: &mut Stream) -> Option<Partiti
     let least = SLIVER * region.area.size();
     let plain = |areas: Vec<crate::plane::Area>, role| -> Vec<Region> {
         let solid = areas.into_iter().filter(|area| area.size() > least);
-        solid.map(|area| piece(&heritage, area, axes, role)).collect()
+        solid
+            .map(|area| piece(&heritage, area, axes, role))
+            .collect()
     };
     Some(Partition {
         outputs: vec![

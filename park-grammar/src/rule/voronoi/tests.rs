@@ -60,7 +60,11 @@ impl Motion {
 
 fn region((points, holed): &(Vec<Coord<f64>>, bool), motion: Motion) -> Region {
     let moved = |ring: &[Coord<f64>]| -> Ring { ring.iter().map(|&p| motion.of(p)).collect() };
-    let holes = if *holed { vec![moved(&hole(0.3))] } else { Vec::new() };
+    let holes = if *holed {
+        vec![moved(&hole(0.3))]
+    } else {
+        Vec::new()
+    };
     let mut region = Region::bare(Area::new(moved(points), holes));
     crate::index::park(&mut region);
     region
@@ -286,16 +290,27 @@ fn sides_are_counted_from_the_boundary() {
     let region = region(&(ring, false), Motion::NONE);
     let at = [(15., 10.), (15., 30.), (45., 30.), (45., 10.)];
     let spots = spots(&region, &at, Motion::NONE);
-    let partition = divide(&region, &asked(spots, 2.0, 0.0, &region), &mut Stream::new(0));
+    let partition = divide(
+        &region,
+        &asked(spots, 2.0, 0.0, &region),
+        &mut Stream::new(0),
+    );
     let cells = &partition.as_ref().expect("has cells").outputs[0].regions;
     assert_eq!(cells.len(), 4);
     // Cells of 29 x 19; the longer side on the boundary is north or south.
     for cell in cells {
         assert!((cell.area.size() - 29.0 * 19.0).abs() < 1e-6);
         assert_eq!(cell.sides, 4);
-        let zero = cell.logical().into_iter().find(|s| s.index == 0).expect("has side 0");
+        let zero = cell
+            .logical()
+            .into_iter()
+            .find(|s| s.index == 0)
+            .expect("has side 0");
         assert!((dist(zero.line[0], zero.line[1]) - 29.0).abs() < 1e-6);
-        let origin = cell.local.point(coord! { x: 0.0, y: 0.0 }).expect("lies here");
+        let origin = cell
+            .local
+            .point(coord! { x: 0.0, y: 0.0 })
+            .expect("lies here");
         assert!(dist(origin, zero.line[0]) < 1e-6);
         let marks: Vec<Role> = sides(cell.ring(0))
             .zip(&cell.edges[0])
@@ -317,7 +332,9 @@ fn hard_places() {
     let cases: [Vec<(f64, f64)>; 4] = [
         vec![(20., 20.)],
         (1..9).map(|k| (4.0 * f64::from(k), 20.)).collect(),
-        (0..25).map(|k| (4.0 + 8.0 * f64::from(k % 5), 4.0 + 8.0 * f64::from(k / 5))).collect(),
+        (0..25)
+            .map(|k| (4.0 + 8.0 * f64::from(k % 5), 4.0 + 8.0 * f64::from(k / 5)))
+            .collect(),
         vec![(0., 0.), (0., 40.), (40., 20.), (20., 20.)],
     ];
     for at in cases {
@@ -345,7 +362,12 @@ fn many_places() {
     let region = region(&(ring, false), Motion::NONE);
     let mut chance = Stream::new(2);
     let spots: Vec<Spot> = (0..2000)
-        .map(|_| spot(coord! { x: 900.0 * chance.unit(), y: 900.0 * chance.unit() }, 0.0))
+        .map(|_| {
+            spot(
+                coord! { x: 900.0 * chance.unit(), y: 900.0 * chance.unit() },
+                0.0,
+            )
+        })
         .collect();
     let partition = divide(&region, &asked(spots, 1.0, 0.0, &region), &mut chance);
     let partition = partition.expect("has cells");
@@ -361,7 +383,13 @@ fn frames_are_clockwise() {
     let ring = ring.map(|(x, y)| coord! { x: x, y: y }).to_vec();
     let region = region(&(ring, false), Motion::NONE);
     let frame = frame(&region);
-    assert!(sides(&frame).zip(sides(&frame).skip(1)).all(|((a, b), (c, d))| cross(b - a, d - c) < 0.0));
-    assert!(region.area.outer.iter().all(|&p| sides(&frame).all(|(a, b)| cross(b - a, p - a) < 0.0)));
+    assert!(sides(&frame)
+        .zip(sides(&frame).skip(1))
+        .all(|((a, b), (c, d))| cross(b - a, d - c) < 0.0));
+    assert!(region
+        .area
+        .outer
+        .iter()
+        .all(|&p| sides(&frame).all(|(a, b)| cross(b - a, p - a) < 0.0)));
     assert!(dot(frame[1] - frame[0], frame[2] - frame[1]).abs() < 1e-6);
 }
