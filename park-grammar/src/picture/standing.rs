@@ -30,13 +30,15 @@ pub(super) fn draw(pen: &mut Pen, scene: &Scene) {
         pen.raw("<g fill=\"#18240f\" fill-opacity=\"1\" opacity=\".22\">\n");
         let data: String = scene.volumes.iter().map(|v| below(pen, v)).collect();
         pen.path(&data, "");
-        scene.objects.iter().for_each(|object| shade(pen, object));
+        let objects = scene.objects.iter().filter(|o| o.spread >= pen.least);
+        let objects: Vec<&Object> = objects.collect();
+        objects.into_iter().for_each(|object| shade(pen, object));
         pen.raw("</g>\n");
     }
     let mut all: Vec<(f64, Thing<'_>)> = Vec::new();
     let volumes = scene.volumes.iter();
     all.extend(volumes.map(|volume| (volume.height, Thing::Volume(volume))));
-    let objects = scene.objects.iter();
+    let objects = scene.objects.iter().filter(|o| o.spread >= pen.least);
     all.extend(objects.map(|object| (object.height, Thing::Object(object))));
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
     for (_, thing) in all {
