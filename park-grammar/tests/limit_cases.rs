@@ -30,7 +30,7 @@ fn rules_that_lead_back_to_themselves() {
         "Region -> Bed\nBed -> Case { else: Bed }",
         "Region -> Bed\nBed -> Grid(1, 1) { Bed } {}",
         "Region -> Bed\nBed -> Peel(ALL, 0.1 %) { Lawn | Bed }",
-        "Region -> Bed\nBed -> Place(CENTRE) { Bed }",
+        "Region -> Bed\nBed -> Place(CENTRE) { Spot }\nSpot -> Spot",
         "Region -> Bed\nBed -> Bed2(1)\nBed2(x) -> Bed",
         "Region -> Bed\nfun Bed() -> Bed()",
     ] {
@@ -101,7 +101,6 @@ fn long_operations_ask_whether_to_go_on() {
     ] {
         let grammar = grammar(rules);
         let mut asked = 0;
-        // One second lies in the way of no machine.
         let options = DeriveOptions {
             time: None,
             ..DeriveOptions::default()
