@@ -21,8 +21,8 @@ use geo_types::Coord;
 
 use super::inset::wedge;
 use super::{
-    cross, difference, dist, dot, intersection, lerp, right, sides, union, unit, Area, Corner,
-    Ring, Segment,
+    cross, difference, dist, dot, intersection, lerp, right, sides, trim, union, unit, Area,
+    Corner, Ring, Segment,
 };
 
 /// A run that follows its neighbours reaches no farther beyond its end than this
@@ -417,7 +417,11 @@ pub(crate) fn inset(area: &Area, depth: f64) -> Vec<Area> {
     };
     let rings: Vec<Vec<Bound>> = area.rings().map(all).collect();
     let band = Band::new(&rings, depth, Ends::Follow);
-    difference(from_ref(&band.land), &band.cover)
+    let (low, high) = area.extent();
+    trim(
+        difference(from_ref(&band.land), &band.cover),
+        dist(low, high),
+    )
 }
 
 #[cfg(test)]

@@ -13,6 +13,9 @@ use super::{cross, difference, dist, dot, lerp, nearest_on, right, sides, unit, 
 /// Arcs turn by this much at each vertex at most, radians.
 const ARC: f64 = std::f64::consts::PI / 18.0;
 
+/// A whole number of pieces is one, whatever rounding makes of it.
+const WHOLE: f64 = 1e-6;
+
 /// A mitre reaches this many widths at most; beyond, the corner is round.
 const REACH: f64 = 4.0;
 
@@ -88,7 +91,7 @@ pub(super) fn wedge(
             at + to * width,
         ]);
     } else {
-        let pieces = (turn / ARC).ceil().max(1.0);
+        let pieces = (turn / ARC - WHOLE).ceil().max(1.0);
         let count = pieces as usize;
         ring.extend((0..count).map(|k| at + turned(turn * k as f64 / pieces) * width));
         ring.push(at + to * width);

@@ -13,7 +13,8 @@
 //! * `curve = sinus`: `waves` (1) waves of the `amplitude` (a length or a share of
 //!   the chord, 0.1 unless said), to the left first.
 //!
-//! What begins or ends inside the region goes straight on to its boundary. A line
+//! What begins or ends inside the region, or comes to its boundary from outside, goes
+//! straight on to the boundary ahead. A line
 //! that leaves the region and comes back cuts all that it crosses, so that there may
 //! be several parts on each side. Left and right are those of someone who walks
 //! along the line, in a mirrored region mirrored too. Where a line that crosses
@@ -61,7 +62,12 @@ pub(crate) fn split_along(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let split = holes::wanted(&mut arguments, scope)?;
     let mut line = Vec::new();
     while let Some(argument) = arguments.next() {
-        line.extend(places(scope, argument)?.into_iter().map(|spot| spot.at));
+        let spots = places(scope, argument)?;
+        if spots.is_empty() {
+            let error = "this region has no such place";
+            return Err(Failure::unfit(argument.value.span, error));
+        }
+        line.extend(spots.into_iter().map(|spot| spot.at));
     }
     line.dedup();
     let (Some(&first), Some(&last)) = (line.first(), line.last()) else {
@@ -201,18 +207,22 @@ fn extended(region: &Region, line: Vec<Coord<f64>>, width: f64) -> Through {
             break;
         };
         let (end, along) = (*end, unit(*end - *before));
-        let inside = region.area.contains(end) && region.area.nearest(end).1 > ON * size;
-        let way = if inside {
-            way_out(&region.area, end, along).unwrap_or(size)
+        // On the boundary a line may arrive from inside, or from outside: then it
+        // goes on too.
+        let hair = BEYOND * size;
+        let on = region.area.nearest(end).1 <= ON * size;
+        let from = if on { end + along * hair } else { end };
+        let way = if region.area.contains(from) {
+            way_out(&region.area, from, along).unwrap_or(size) + dist(end, from)
         } else {
             0.0
         };
         if long.is_empty() {
             long.clone_from(&middle);
         }
-        middle.push(end + along * (way + BEYOND * size));
+        middle.push(end + along * (way + hair));
         // As far again as a path is wide for each unit that it leans.
-        long.push(end + along * (way + 2.0 * width + BEYOND * size));
+        long.push(end + along * (way + 2.0 * width + hair));
     }
     Through { middle, long }
 }
@@ -243,13 +253,12 @@ fn cut(region: &Region, line: &Through, width: f64) -> (Vec<Area>, Vec<Area>) {
     let band = merged(stroke(&line.long, width, false));
     let mut paths = intersection(land, &band);
     // Beyond its end a path may have met land that the line does not reach.
+    let near = BEYOND * width;
     paths.retain(|path| {
-        let middles = line
-            .middle
-            .windows(2)
-            .map(|pair| lerp(pair[0], pair[1], 0.5));
+        let pairs = line.middle.windows(2);
+        let middles = pairs.map(|pair| lerp(pair[0], pair[1], 0.5));
         let mut points = middles.chain(line.middle.iter().copied());
-        points.any(|p| path.contains(p))
+        points.any(|p| path.contains(p) || path.nearest(p).1 <= near)
     });
     (difference(land, &paths), paths)
 }

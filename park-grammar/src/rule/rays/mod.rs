@@ -50,7 +50,8 @@ use super::{Arguments, Ask, Output, Partition, Primitive};
 use crate::derive::{outputs, Scope, Spot, Stream};
 use crate::error::Failure;
 use crate::plane::{
-    difference, lerp, oriented_box, rest, sliced, union, weld, Area, Diagram, Site,
+    difference, dist, intersection, lerp, oriented_box, rest, sliced, union, weld, Area, Diagram,
+    Site,
 };
 use crate::shape::{Heritage, Region, Role};
 use crate::syntax::ast::{Expr, ExprKind};
@@ -109,7 +110,8 @@ fn walks(region: &Region, asked: &Asked, chance: &mut Stream) -> Vec<Path> {
     let links = asked.join.links(&at, || neighbours(region, &at), chance);
     let radius = |shape: &Option<Primitive>| shape.map_or(0.0, Primitive::radius);
     let radii: Vec<f64> = asked.shapes.iter().map(radius).collect();
-    let mut network = Network::new(area, size, 0.5 * asked.width, &at, &radii);
+    let touching = touching(region, asked, &radii);
+    let mut network = Network::new(area, size, 0.5 * asked.width, &at, &radii, &touching);
     network.narrow = asked.narrow;
     network.join(&links);
     if let Some(targets) = &asked.targets {
@@ -117,6 +119,27 @@ fn walks(region: &Region, asked: &Asked, chance: &mut Stream) -> Vec<Path> {
         network.exits();
     }
     network.paths
+}
+
+/// Centres whose shapes share ground.
+fn touching(region: &Region, asked: &Asked, radii: &[f64]) -> Vec<Link> {
+    let shape = |k: usize| {
+        let shape = asked.shapes[k]?;
+        Some(shape_at(shape, asked.spots[k].at, &region.local))
+    };
+    let mut found = Vec::new();
+    for k in 0..radii.len() {
+        for j in 0..k {
+            if dist(asked.spots[j].at, asked.spots[k].at) >= radii[j] + radii[k] {
+                continue;
+            }
+            let both = shape(j).zip(shape(k));
+            if both.is_some_and(|(a, b)| !intersection(&[a], &[b]).is_empty()) {
+                found.push([j, k]);
+            }
+        }
+    }
+    found
 }
 
 /// Divides a region; `None` if nothing but paths would be left.
@@ -185,7 +208,9 @@ fn between(
             taken.extend(land(path, asked.width, area, size));
         }
     }
-    let taken = union(&taken);
+    // Strokes that lie on each other but for the last digits have no end of
+    // crossings: first they must share their vertices.
+    let taken = union(&weld(&taken.iter().collect::<Vec<_>>(), SAME * size));
     let all: Vec<&Area> = std::iter::once(area).chain(&taken).collect();
     let mut welded = weld(&all, SAME * size);
     let outline = if welded.is_empty() {

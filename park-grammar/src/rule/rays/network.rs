@@ -84,20 +84,27 @@ pub(super) struct Network<'a> {
 }
 
 impl<'a> Network<'a> {
+    /// No paths yet between centres; those whose shapes share ground hang together
+    /// already.
     pub(super) fn new(
         area: &'a Area,
         size: f64,
         half: f64,
         centres: &'a [Coord<f64>],
         radii: &[f64],
+        touching: &[Link],
     ) -> Self {
+        let mut groups = Groups::new(centres.len());
+        for &[a, b] in touching {
+            groups.join(a, b);
+        }
         Self {
             area,
             size,
             half,
             centres,
             room: radii.iter().map(|r| r.max(half)).collect(),
-            groups: Groups::new(centres.len()),
+            groups,
             cast: vec![false; centres.len()],
             narrow: 0.0,
             paths: Vec::new(),
@@ -177,43 +184,61 @@ impl<'a> Network<'a> {
 
     /// Gives centres without a way out one.
     pub(super) fn exits(&mut self) {
-        for first in 0..self.centres.len() {
-            let group = self.groups.of(first);
-            let members: Vec<usize> = (0..self.centres.len())
-                .filter(|&k| self.groups.of(k) == group)
-                .collect();
-            if members.iter().any(|&k| self.cast[k]) {
-                continue;
+        // Each turn gives a group its way out, or joins two.
+        for _ in 0..2 * self.centres.len() {
+            let shut = |&k: &usize| self.groups.of(k) == k && !self.has_exit(k);
+            let Some(group) = (0..self.centres.len()).find(shut) else {
+                return;
+            };
+            self.exit(group);
+        }
+    }
+
+    /// A way out for a group of centres.
+    fn exit(&mut self, group: usize) {
+        let members = (0..self.centres.len()).filter(|&k| self.groups.of(k) == group);
+        let mut ends: Vec<(f64, usize, Coord<f64>)> = Vec::new();
+        for k in members {
+            let from = self.centres[k];
+            for (a, b) in sides(&self.area.outer) {
+                let at = nearest_on(a, b, from);
+                ends.push((dist(from, at), k, at));
             }
-            let mut ends: Vec<(f64, usize, Coord<f64>)> = Vec::new();
-            for &k in &members {
-                let from = self.centres[k];
-                for (a, b) in sides(&self.area.outer) {
-                    let at = nearest_on(a, b, from);
-                    ends.push((dist(from, at), k, at));
+        }
+        ends.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let Some(&(least, nearest, end)) = ends.first() else {
+            return;
+        };
+        // One that lies on the outline is a way in itself.
+        if least <= NEAR * self.size {
+            self.cast[nearest] = true;
+            return;
+        }
+        ends.retain(|(_, k, at)| sees(self.area, self.centres[*k], *at));
+        for &(_, k, at) in &ends {
+            let own = |met: &Meeting| self.groups.of(met.with) == group;
+            if !self.meeting(k, at).as_ref().is_some_and(own) {
+                let end = End { at, leaves: true };
+                if self.ray(k, end, true) {
+                    return;
                 }
             }
-            ends.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            // One that lies on the outline is a way in itself.
-            if ends.first().is_none_or(|end| end.0 <= NEAR * self.size) {
-                continue;
-            }
-            let seen = ends
-                .iter()
-                .find(|(_, k, at)| sees(self.area, self.centres[*k], *at));
-            if let Some(&(_, k, at)) = seen {
-                self.ray(k, End { at, leaves: true }, true);
-            } else if let Some(&(_, k, at)) = ends.first() {
-                // All that is near of the outline lies behind holes.
-                if let Some(line) = Router::new(self.area.clone()).way(self.centres[k], at) {
-                    self.paths.push(Path {
-                        line,
-                        centres: [Some(k), None],
-                        leaves: true,
-                    });
-                }
-                self.cast[k] = true;
-            }
+        }
+        // Through the group's own paths, or past holes.
+        let straight = ends
+            .first()
+            .map(|&(_, k, at)| (k, vec![self.centres[k], at]));
+        let found = straight.or_else(|| {
+            let way = Router::new(self.area.clone()).way(self.centres[nearest], end);
+            way.map(|line| (nearest, line))
+        });
+        self.cast[nearest] = true;
+        if let Some((k, line)) = found {
+            self.paths.push(Path {
+                line,
+                centres: [Some(k), None],
+                leaves: true,
+            });
         }
     }
 
@@ -282,7 +307,7 @@ impl<'a> Network<'a> {
             }
         };
         for (k, &at) in self.centres.iter().enumerate() {
-            if k != centre {
+            if k != centre && dist(from, at) >= self.room[k] {
                 let on = nearest_on(from, to, at);
                 if dist(on, at) < self.room[k] {
                     meet(dist(from, on) / long, k);
@@ -363,7 +388,7 @@ mod tests {
     fn paths(centres: &[Coord<f64>], rays: Rays, links: &[Link]) -> Vec<Path> {
         let area = square();
         let targets = Targets::Places(area.outer.clone());
-        let mut network = Network::new(&area, 20.0, 1.0, centres, &vec![0.0; centres.len()]);
+        let mut network = Network::new(&area, 20.0, 1.0, centres, &vec![0.0; centres.len()], &[]);
         network.join(links);
         network.cast(&targets, rays, false);
         network.exits();
@@ -408,7 +433,7 @@ mod tests {
         ];
         let area = Area::new(u.map(|(x, y)| p(x, y)).to_vec(), Vec::new());
         let centres = [p(3., 26.), p(24., 26.)];
-        let mut network = Network::new(&area, 30.0, 1.0, &centres, &[0.0; 2]);
+        let mut network = Network::new(&area, 30.0, 1.0, &centres, &[0.0; 2], &[]);
         network.join(&[[0, 1]]);
         let line = &network.paths[0].line;
         assert!(line.len() > 3);
