@@ -74,6 +74,36 @@ pub(crate) fn by_local(region: &mut Region) {
     set_sides(region, corners, region.local.mirrored());
 }
 
+/// Keeps the numbers that the edges of a piece have from its region, of `sides`
+/// sides, if it has each of them as one run; else numbers them by its local
+/// coordinates. Where the four corners of a region that looks like a quad are
+/// still there, local coordinates follow them.
+pub(crate) fn kept(region: &mut Region, sides: usize) {
+    for edge in region.edges.iter_mut().skip(1).flatten() {
+        edge.side = None;
+    }
+    let all = region.edges[0].iter().all(|edge| edge.side.is_some());
+    let mut runs: Vec<usize> = region.logical().iter().map(|side| side.index).collect();
+    runs.sort_unstable();
+    if !all || !runs.into_iter().eq(0..sides) {
+        by_local(region);
+        return;
+    }
+    region.sides = sides;
+    if sides == 4 {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k| region.corner(k));
+        if let (Some(a), Some(b), Some(c), Some(d)) = (a, b, c, d) {
+            let places = [a, b, c, d];
+            let least = Thresholds::DEFAULT.square;
+            let square = |angles: [f64; 4]| angles.iter().all(|a| *a >= least);
+            let same = Local::new(places).mirrored() == region.local.mirrored();
+            if same && quad_angles(&places).is_some_and(square) {
+                region.local.corners = places;
+            }
+        }
+    }
+}
+
 /// The vertices of a ring at which its groups of cardinal directions meet: those
 /// at (0, 0), (0, 1), (1, 1) and (1, 0) of axes.
 pub(crate) fn meeting_points(ring: &Ring, x: Coord<f64>, y: Coord<f64>) -> [usize; 4] {

@@ -5,6 +5,7 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::core::solver::Solver;
 use i_overlay::float::overlay::{FloatOverlay, OverlayOptions};
+use i_overlay::float::slice::FloatSlice;
 
 use super::{Area, Ring};
 
@@ -27,11 +28,30 @@ pub(crate) fn union(a: &[Area]) -> Vec<Area> {
     overlay(a, &[], OverlayRule::Subject)
 }
 
+/// An area cut along lines, which may cross it, each other and themselves. A line
+/// that ends inside cuts no farther than it separates something.
+pub(crate) fn slice(area: &Area, lines: &[Vec<Coord<f64>>]) -> Vec<Area> {
+    let lines: Vec<Vec<[f64; 2]>> = lines
+        .iter()
+        .map(|line| line.iter().map(|c| [c.x, c.y]).collect())
+        .collect();
+    let mut options = OverlayOptions::default();
+    options.preserve_output_collinear = true;
+    let found = vec![shape(area)].slice_custom_by_as::<i64>(
+        &lines,
+        FillRule::NonZero,
+        options,
+        Solver::default(),
+    );
+    areas(&found, std::slice::from_ref(area))
+}
+
+fn shape(area: &Area) -> Vec<Vec<[f64; 2]>> {
+    let ring = |ring: &Ring| ring.iter().map(|c| [c.x, c.y]).collect();
+    area.rings().map(ring).collect()
+}
+
 fn overlay(a: &[Area], b: &[Area], rule: OverlayRule) -> Vec<Area> {
-    let shape = |area: &Area| -> Vec<Vec<[f64; 2]>> {
-        let ring = |ring: &Ring| ring.iter().map(|c| [c.x, c.y]).collect();
-        area.rings().map(ring).collect()
-    };
     let subject: Vec<_> = a.iter().map(shape).collect();
     let clip: Vec<_> = b.iter().map(shape).collect();
     let run = |mut options: OverlayOptions<f64, i64>| {
@@ -60,7 +80,12 @@ fn overlay(a: &[Area], b: &[Area], rule: OverlayRule) -> Vec<Area> {
     } else {
         plain
     };
-    let points: Vec<Coord<f64>> = a.iter().flat_map(|x| x.outer.iter().copied()).collect();
+    areas(&found, a)
+}
+
+/// What came of areas, without slivers.
+fn areas(found: &Shapes, of: &[Area]) -> Vec<Area> {
+    let points: Vec<Coord<f64>> = of.iter().flat_map(|x| x.outer.iter().copied()).collect();
     let (low, high) = super::extent(&points);
     let least = SLIVER * (high.x - low.x).max(high.y - low.y).powi(2);
     let coords =

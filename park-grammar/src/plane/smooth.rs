@@ -26,7 +26,7 @@ use super::{cross, dist, dot, lerp, unit, Ring};
 /// Arcs turn by this much at each vertex at most, radians.
 const ARC: f64 = std::f64::consts::PI / 18.0;
 
-/// Corners that turn by less are left alone by rounding, radians.
+/// Vertices that turn by less are no corners, radians.
 const STRAIGHT: f64 = 1e-6;
 
 /// A way to smooth a ring.
@@ -54,6 +54,7 @@ pub(crate) fn smooth(
     reach: Option<f64>,
 ) -> Ring {
     let mut line: Vec<Vertex> = ring.iter().copied().zip(pinned.iter().copied()).collect();
+    line = without_straights(line);
     if line.len() < 3 {
         return ring.to_vec();
     }
@@ -71,6 +72,18 @@ pub(crate) fn smooth(
         ring.pop();
     }
     ring
+}
+
+/// Without free vertices at which the ring does not turn: what a boolean leaves on
+/// an edge must not change what becomes of its corners.
+fn without_straights(line: Vec<Vertex>) -> Vec<Vertex> {
+    let n = line.len();
+    let turns = |k: &usize| {
+        let (before, (at, stays), after) = (line[(k + n - 1) % n], line[*k], line[(k + 1) % n]);
+        let (u, v) = (unit(at - before.0), unit(after.0 - at));
+        stays || cross(u, v).abs() > STRAIGHT || dot(u, v) < 0.0
+    };
+    (0..n).filter(turns).map(|k| line[k]).collect()
 }
 
 /// Each vertex with the next one.

@@ -7,11 +7,11 @@ use super::frame::Frame;
 use super::{angle, continuous, grow, history, near, part, sector, Selection};
 use crate::derive::{Number, Scope, Spot, Value};
 use crate::error::Failure;
-use crate::rule::{points, Arguments};
+use crate::rule::{contract, points, Arguments};
 use crate::syntax::ast::{Argument, Block, Expr, ExprKind, Name, Operation, Span, Unit};
 
 /// Selectors that take values, for hints.
-pub(crate) const CALLS: [&str; 9] = [
+pub(crate) const CALLS: [&str; 10] = [
     "Angle",
     "Sector",
     "Grow",
@@ -21,6 +21,7 @@ pub(crate) const CALLS: [&str; 9] = [
     "Nearest",
     "Part",
     "Length",
+    "Contract",
 ];
 
 /// A selector with values, such as `Part(OUTER, [0, 0.5])`, or an operation that
@@ -41,6 +42,9 @@ pub(crate) fn call(
     };
     if points::gives_points(&operation) {
         return points::of_operation(scope, &operation, name.span);
+    }
+    if name.text == "Contract" {
+        return contract::lines(scope, &operation);
     }
     let mut arguments = Arguments::new(&operation);
     let selection = match name.text.as_str() {
@@ -97,7 +101,7 @@ fn corners(scope: &Scope<'_>, numbers: &[i64]) -> Vec<Spot> {
 
 fn by_angle(scope: &mut Scope<'_>, arguments: &mut Arguments<'_>) -> Result<Selection, Failure> {
     let range = angles(scope, &arguments.need("a range of angles")?.value)?;
-    let line = arguments.flag(scope, "LINE")?;
+    let line = arguments.flag(scope, "Line")?;
     let frame = frame(scope, arguments)?;
     Ok(if line {
         angle::lying(scope.region, frame, range)
@@ -127,8 +131,8 @@ fn growing(scope: &mut Scope<'_>, mut arguments: Arguments<'_>) -> Result<Value,
         }
         _ => (false, vec![direction(scope, expr)?]),
     };
-    let leave = arguments.flag(scope, "LEAVE")?;
-    let grow_on = arguments.flag(scope, "REST")?;
+    let leave = arguments.flag(scope, "Leave")?;
+    let grow_on = arguments.flag(scope, "Rest")?;
     let frame = frame(scope, &mut arguments)?;
     let threshold = match arguments.next() {
         Some(argument) => {
@@ -176,13 +180,13 @@ fn cardinal(scope: &mut Scope<'_>, arguments: &mut Arguments<'_>) -> Result<Sele
         return Err(failure.hint("write WEST, NORTH, EAST or SOUTH"));
     };
     let frame = frame(scope, arguments)?;
-    let northern = arguments.flag(scope, "NORTHERN")?;
-    let split = arguments.flag(scope, "SPLIT")?;
+    let northern = arguments.flag(scope, "Northern")?;
+    let split = arguments.flag(scope, "Split")?;
     let ways = [
-        ("CORNERS", Way::Corners),
-        ("ANGLE", Way::Angle),
-        ("SECTOR", Way::Sector),
-        ("GROW", Way::Grow),
+        ("Corners", Way::Corners),
+        ("Angle", Way::Angle),
+        ("Sector", Way::Sector),
+        ("Grow", Way::Grow),
     ];
     let mut way = Way::Corners;
     for (word, named) in ways {
@@ -190,7 +194,7 @@ fn cardinal(scope: &mut Scope<'_>, arguments: &mut Arguments<'_>) -> Result<Sele
             way = named;
         }
     }
-    if arguments.flag(scope, "DOMINANT")? || northern || split {
+    if arguments.flag(scope, "Dominant")? || northern || split {
         way = Way::Dominant(match (northern, split) {
             (_, true) => Ties::Split,
             (true, false) => Ties::Northern,
@@ -267,9 +271,9 @@ pub(crate) fn range(value: &Value) -> Option<Option<[Number; 2]>> {
     }
 }
 
-/// The axes: the region's own, or with `COMPASS` those.
+/// The axes: the region's own, or with `Compass` those.
 fn frame(scope: &mut Scope<'_>, arguments: &mut Arguments<'_>) -> Result<Frame, Failure> {
-    let compass = arguments.flag(scope, "COMPASS")?;
+    let compass = arguments.flag(scope, "Compass")?;
     Ok(if compass {
         Frame::COMPASS
     } else {

@@ -16,6 +16,7 @@ pub(crate) mod named;
 mod near;
 mod part;
 mod sector;
+mod steps;
 mod walk;
 
 use geo_types::Coord;
@@ -27,6 +28,7 @@ pub(crate) use call::{call, index, range, CALLS};
 pub(crate) use frame::Frame;
 pub(crate) use named::NAMES;
 pub(crate) use part::parametrise;
+pub(crate) use steps::Step;
 pub(crate) use walk::Lines;
 
 /// Shorter spans are rounding, as a share of the ring.

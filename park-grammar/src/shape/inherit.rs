@@ -15,7 +15,7 @@ const NEAR: f64 = 1e-6;
 pub(crate) struct Heritage<'r> {
     region: &'r Region,
     /// The rule, for the marks of what is new.
-    rule: &'r str,
+    rule: &'static str,
     near: f64,
     /// The region's edges with their directions, ring by ring.
     edges: Vec<Source<'r>>,
@@ -29,7 +29,7 @@ struct Source<'r> {
 }
 
 impl<'r> Heritage<'r> {
-    pub(crate) fn new(region: &'r Region, rule: &'r str) -> Self {
+    pub(crate) fn new(region: &'r Region, rule: &'static str) -> Self {
         let (low, high) = region.area.extent();
         let edges = (0..region.rings()).flat_map(|ring| region.edges(ring));
         let source = |(p, q, edge): (Coord<f64>, Coord<f64>, &'r Edge)| Source {
@@ -65,7 +65,7 @@ impl<'r> Heritage<'r> {
     /// A mark of this rule.
     pub(crate) fn mark(&self, role: Role) -> Mark {
         Mark {
-            rule: self.rule.to_owned(),
+            rule: self.rule.into(),
             depth: self.region.depth,
             role,
         }
@@ -80,23 +80,31 @@ impl<'r> Heritage<'r> {
         local: Local,
         role: impl Fn(Coord<f64>, Coord<f64>) -> Option<Role>,
     ) -> Region {
+        self.made(area, local, |a, b, source| match source {
+            Some(edge) => edge.clone(),
+            None => Edge {
+                side: None,
+                origin: Origin {
+                    boundary: None,
+                    descent: self.facing(a, b),
+                    marks: role(a, b).map(|role| self.mark(role)).into_iter().collect(),
+                },
+            },
+        })
+    }
+
+    /// The piece as a region with edges that the rule makes itself: from the ends
+    /// of each, and the edge of the region on which it lies.
+    pub(crate) fn made(
+        &self,
+        area: Area,
+        local: Local,
+        edge: impl Fn(Coord<f64>, Coord<f64>, Option<&Edge>) -> Edge,
+    ) -> Region {
         let mut region = Region::bare(area);
         for ring in 0..region.rings() {
-            let points: Vec<(Coord<f64>, Coord<f64>)> =
-                crate::plane::sides(region.ring(ring)).collect();
-            region.edges[ring] = points
-                .into_iter()
-                .map(|(a, b)| match self.source(a, b) {
-                    Some(edge) => edge.clone(),
-                    None => Edge {
-                        side: None,
-                        origin: Origin {
-                            boundary: None,
-                            descent: self.facing(a, b),
-                            marks: role(a, b).map(|role| self.mark(role)).into_iter().collect(),
-                        },
-                    },
-                })
+            region.edges[ring] = crate::plane::sides(region.ring(ring))
+                .map(|(a, b)| edge(a, b, self.source(a, b)))
                 .collect();
         }
         region.local = local;

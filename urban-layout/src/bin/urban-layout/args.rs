@@ -34,6 +34,8 @@ pub(crate) enum Verb {
     Network(NetworkJob),
     /// Plan the floors of a building, rooms and corridors: writes floorplan.svg, floorplan.geojson and floorplan.json.
     Floorplan(FloorplanJob),
+    /// Derive a park from a grammar: writes park.svg and park.geojson.
+    Park(ParkJob),
 }
 
 #[derive(Debug, Args)]
@@ -218,6 +220,32 @@ pub(crate) struct NetworkJob {
     pub(crate) common: Common,
 }
 
+#[derive(Debug, Args)]
+pub(crate) struct ParkJob {
+    /// The park's outline, a GeoJSON file; a park for each of its parts.
+    pub(crate) polygon: PathBuf,
+    /// Folder for the results; made if it is not there.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// The grammar: a file, or the name of one of the library, such as simple_square.
+    #[arg(long, value_name = "FILE|NAME")]
+    pub(crate) grammar: String,
+    /// Seed of all random choices.
+    #[arg(long, default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// Gives a parameter of the grammar another value; may be repeated.
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub(crate) param: Vec<String>,
+    /// Also write the model park.glb, glTF 2.0.
+    #[arg(long)]
+    pub(crate) gltf: bool,
+    /// Also draw park.png.
+    #[arg(long)]
+    pub(crate) png: bool,
+    #[command(flatten)]
+    pub(crate) common: Common,
+}
+
 /// How a field is designed.
 #[derive(Debug, Args)]
 pub(crate) struct Design {
@@ -344,6 +372,12 @@ impl Common {
     pub(crate) fn read_building(&self, path: &Path) -> Result<Site> {
         let text = std::fs::read_to_string(path).map_err(|e| Error::reading(path, e))?;
         Site::building_from_geojson(&text, self.units.into())
+    }
+
+    /// The land of a file that is to be a park.
+    pub(crate) fn read_park(&self, path: &Path) -> Result<Site> {
+        let text = std::fs::read_to_string(path).map_err(|e| Error::reading(path, e))?;
+        Site::park_from_geojson(&text, self.units.into())
     }
 }
 
