@@ -1,12 +1,12 @@
 //! What `CastRays` makes, by examples with known answers.
 
-mod tiling;
+mod common;
 
 use park_grammar::geo_types::{polygon, LineString, Polygon};
 use park_grammar::scene::Piece;
 use park_grammar::Scene;
 
-use tiling::{park, size};
+use common::{park, size};
 
 /// 40 wide and high.
 fn square() -> Polygon<f64> {

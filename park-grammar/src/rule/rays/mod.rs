@@ -50,7 +50,7 @@ use super::{Arguments, Ask, Output, Partition, Primitive};
 use crate::derive::{outputs, Scope, Spot, Stream, Watch};
 use crate::error::Failure;
 use crate::plane::{
-    difference, dist, intersection, lerp, oriented_box, rest, sliced, union, weld, Area, Diagram,
+    difference, dist, intersection, lerp, oriented_box, rest, slice, union, weld, Area, Diagram,
     Site,
 };
 use crate::shape::{Heritage, Region, Role};
@@ -248,7 +248,7 @@ fn between(
         .iter()
         .map(|path| extended(path, BEYOND * size))
         .collect();
-    sliced(&left, &lines)
+    left.iter().flat_map(|area| slice(area, &lines)).collect()
 }
 
 /// Centres whose Voronoi cells meet in the frame of the region: its Delaunay
