@@ -240,7 +240,7 @@ impl<'p> Formulated<'p> {
         if tight {
             plain(Box::new(patterns::add(&mut draft)));
             if cuts.balls {
-                balls::add(&mut draft);
+                plain(Box::new(balls::add(&mut draft)));
             }
         }
         let mut detours = None;
