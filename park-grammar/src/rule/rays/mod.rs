@@ -226,8 +226,12 @@ fn between(
 ) -> Vec<Area> {
     let mut taken: Vec<Area> = lands.iter().flatten().cloned().collect();
     if asked.width > 0.0 {
+        let covered = |centre: usize| {
+            let shape = asked.shapes[centre];
+            shape.is_some_and(|shape| shape.inner_radius() >= 0.5 * asked.width)
+        };
         for path in paths {
-            taken.extend(land(path, asked.width, area, size));
+            taken.extend(land(path, asked.width, area, size, &covered));
         }
     }
     // Strokes that lie on each other but for the last digits have no end of
