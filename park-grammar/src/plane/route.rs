@@ -4,6 +4,9 @@
 //! those by A* (Hart, Nilsson and Raphael 1968), which looks around only where it
 //! comes to.
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
 use geo_types::Coord;
 
 use super::{cross, dist, sees, Area, Ring};
@@ -14,6 +17,8 @@ pub(crate) struct Router {
     area: Area,
     /// Corners that turn inwards.
     bends: Vec<Coord<f64>>,
+    /// Whether bends see each other, as far as it has been asked.
+    seen: RefCell<BTreeMap<(usize, usize), bool>>,
 }
 
 impl Router {
@@ -26,8 +31,19 @@ impl Router {
         };
         Self {
             bends: area.rings().flat_map(bends).collect(),
+            seen: RefCell::default(),
             area,
         }
+    }
+
+    /// Whether two of `places` see each other; the bends are those from 2 on.
+    fn sees(&self, places: &[Coord<f64>], a: usize, b: usize) -> bool {
+        let look = || sees(&self.area, places[a], places[b]);
+        if a.min(b) < 2 {
+            return look();
+        }
+        let mut seen = self.seen.borrow_mut();
+        *seen.entry((a.min(b), a.max(b))).or_insert_with(look)
     }
 
     /// The shortest way from one place to another, both included; `None` where
@@ -36,7 +52,7 @@ impl Router {
     /// # Cost
     ///
     /// For each bend that the search comes to, a look at every other past every
-    /// edge.
+    /// edge, once for all ways.
     pub(crate) fn way(&self, from: Coord<f64>, to: Coord<f64>) -> Option<Vec<Coord<f64>>> {
         let inside = |p| self.area.contains(p) || sees(&self.area, p, self.area.nearest(p).0);
         if !inside(from) || !inside(to) {
@@ -59,7 +75,7 @@ impl Router {
             done[here] = true;
             for k in 1..n {
                 let there = least[here] + dist(places[here], places[k]);
-                if !done[k] && there < least[k] && sees(&self.area, places[here], places[k]) {
+                if !done[k] && there < least[k] && self.sees(&places, here, k) {
                     least[k] = there;
                     before[k] = here;
                 }

@@ -62,7 +62,25 @@ fn sight(area: &Area, a: Coord<f64>, b: Coord<f64>) -> f64 {
 
 /// Whether the way from `a` to `b` runs inside the area or along its boundary.
 pub(crate) fn sees(area: &Area, a: Coord<f64>, b: Coord<f64>) -> bool {
-    sight(area, a, b) * dist(a, b) >= dist(a, b) - tolerance(area)
+    !passes(area, a, b) && sight(area, a, b) * dist(a, b) >= dist(a, b) - tolerance(area)
+}
+
+/// Whether the way passes through an edge, plainly from one side to the other: most
+/// that do not see each other are told so without a look at what is inside.
+fn passes(area: &Area, a: Coord<f64>, b: Coord<f64>) -> bool {
+    let (near, long) = (tolerance(area), dist(a, b));
+    let apart = |u: f64, v: f64| (u > near && v < -near) || (u < -near && v > near);
+    long > near
+        && area
+            .rings()
+            .flat_map(|ring| super::sides(ring))
+            .any(|(p, q)| {
+                let [u, v] = [p, q].map(|x| cross(b - a, x - a) / long);
+                apart(u, v) && {
+                    let [s, t] = [a, b].map(|x| cross(q - p, x - p) / dist(p, q));
+                    apart(s, t)
+                }
+            })
 }
 
 /// Where a ray leaves the area; `None` for one that begins by leaving it.
