@@ -374,3 +374,44 @@ fn broken_laws_are_warnings() {
         "{said}"
     );
 }
+
+/// Parks of plans have designs of their own; the plan itself is the same without.
+#[test]
+fn parks_of_a_plan_are_designed() {
+    let bench = bench();
+    let site = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    let site = site.join("../tests/data/sites/kotka_north.geojson");
+    let site = site.to_string_lossy();
+    let words = ["generate", &*site, "--out"];
+    bench.expect(0, &[&words[..], &["auto"]].concat());
+    bench.expect(
+        0,
+        &[&words[..], &["woods", "--park-grammar", "woodland"]].concat(),
+    );
+    bench.expect(
+        0,
+        &[&words[..], &["plain", "--park-grammar", "none"]].concat(),
+    );
+    let read = |name: &str| std::fs::read_to_string(bench.path(name)).expect("written");
+    let parks = |folder: &str| features(&read(&format!("{folder}/parks.geojson")));
+    let auto = parks("auto");
+    assert!(auto.iter().any(|f| f["properties"]["name"] == "Tree"));
+    let layout = features(&read("auto/layout.geojson"));
+    let ids: BTreeSet<u64> = of(&layout, "park")
+        .iter()
+        .filter_map(|f| f["properties"]["id"].as_u64())
+        .collect();
+    for feature in &auto {
+        assert!(ids.contains(&feature["properties"]["park"].as_u64().expect("a tile")));
+    }
+    let woods = parks("woods");
+    assert!(woods
+        .iter()
+        .all(|f| f["properties"]["grammar"] == "woodland"));
+    assert!(parks("plain").is_empty());
+    assert!(read("auto/layout.geojson") == read("plain/layout.geojson"));
+    assert!(read("auto/layout.svg").contains("park-on-Lawn"));
+    assert!(!read("plain/layout.svg").contains("park-on-"));
+    let words = [&words[..], &["other", "--park-grammar", "nonsense"]].concat();
+    assert!(bench.complaint(1, &words).contains("woodland"));
+}

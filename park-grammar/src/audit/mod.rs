@@ -32,6 +32,7 @@ const NEAR: f64 = 1e-8;
 
 /// What an audit found.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Audit {
     /// Area of the outline, square metres.
     pub area: f64,
@@ -53,6 +54,7 @@ pub struct Audit {
 
 /// Paths that are connected.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PathNetwork {
     /// Which of the scene's pieces.
     pub pieces: Vec<usize>,
@@ -65,6 +67,7 @@ pub struct PathNetwork {
 /// A law that a scene breaks. Numbers of pieces, objects and volumes are those of
 /// the scene's lists.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Violation {
     /// Land that no piece covers.

@@ -43,6 +43,10 @@ pub struct PictureOptions {
     ///
     /// Default value: 0.1 m.
     pub line: f64,
+    /// Things that reach less far, metres, are not drawn.
+    ///
+    /// Default value: 0.
+    pub least: f64,
     /// Whether what stands there throws a shadow.
     ///
     /// Default value: true.
@@ -59,6 +63,7 @@ impl Default for PictureOptions {
         Self {
             origin: None,
             line: 0.1,
+            least: 0.0,
             shadows: true,
             prefix: "park".to_owned(),
         }
@@ -77,6 +82,13 @@ impl PictureOptions {
     #[must_use]
     pub fn with_line(mut self, line: f64) -> Self {
         self.line = line;
+        self
+    }
+
+    /// Sets how far a thing must reach to be drawn, metres.
+    #[must_use]
+    pub fn with_least(mut self, least: f64) -> Self {
+        self.least = least;
         self
     }
 

@@ -17,6 +17,8 @@ pub(super) struct Pen {
     /// Width of the thinnest lines, units.
     pub(super) line: f64,
     pub(super) shadows: bool,
+    /// Things that reach less far, metres, are not drawn.
+    pub(super) least: f64,
     prefix: String,
     clips: usize,
 }
@@ -28,6 +30,7 @@ impl Pen {
             origin,
             line: (UNITS * options.line).max(0.0),
             shadows: options.shadows,
+            least: options.least,
             prefix: escaped(&options.prefix),
             clips: 0,
         }

@@ -30,13 +30,15 @@ pub(super) fn draw(pen: &mut Pen, scene: &Scene) {
         pen.raw("<g fill=\"#18240f\" fill-opacity=\"1\" opacity=\".22\">\n");
         let data: String = scene.volumes.iter().map(|v| below(pen, v)).collect();
         pen.path(&data, "");
-        scene.objects.iter().for_each(|object| shade(pen, object));
+        let objects = scene.objects.iter().filter(|o| o.spread >= pen.least);
+        let objects: Vec<&Object> = objects.collect();
+        objects.into_iter().for_each(|object| shade(pen, object));
         pen.raw("</g>\n");
     }
     let mut all: Vec<(f64, Thing<'_>)> = Vec::new();
     let volumes = scene.volumes.iter();
     all.extend(volumes.map(|volume| (volume.height, Thing::Volume(volume))));
-    let objects = scene.objects.iter();
+    let objects = scene.objects.iter().filter(|o| o.spread >= pen.least);
     all.extend(objects.map(|object| (object.height, Thing::Object(object))));
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
     for (_, thing) in all {
@@ -296,8 +298,8 @@ fn own_picture(kind: &Kind) -> String {
     disc(&kind.colour)
 }
 
-/// The triangles of a mesh that face up, the lowest first, shaded by the way they
-/// face.
+/// The triangles of a mesh that are not upright, the lowest first, shaded by the
+/// way they face.
 fn from_above(kind: &Kind, vertices: &[[f64; 3]], triangles: &[[usize; 3]]) -> String {
     // A mesh's z points south when its x points east.
     let place = |k: usize| {
@@ -315,7 +317,10 @@ fn from_above(kind: &Kind, vertices: &[[f64; 3]], triangles: &[[usize; 3]]) -> S
             u[0] * v[1] - u[1] * v[0],
         ];
         let size = normal.iter().map(|n| n * n).sum::<f64>().sqrt();
-        if size > 0.0 && normal[1] > 0.0 {
+        // Nobody knows how the triangles of a file are wound: all are drawn, and
+        // those below are hidden by those above.
+        let normal = normal.map(|n| n * normal[1].signum());
+        if normal[1] > 1e-9 * size {
             // From the north-west and above.
             let light = (0.8 * normal[1] - 0.42 * normal[0] - 0.42 * normal[2]) / size;
             let top = triangle.map(height).into_iter().sum::<f64>();

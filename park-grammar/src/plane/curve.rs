@@ -66,7 +66,8 @@ pub(crate) fn curve(points: &[Coord<f64>], course: Course) -> Vec<Coord<f64>> {
 }
 
 fn count(pieces: f64) -> usize {
-    (pieces.ceil() as usize).clamp(FEWEST, MOST)
+    // A whole number is one, whatever rounding makes of it.
+    ((pieces - 1e-6).ceil() as usize).clamp(FEWEST, MOST)
 }
 
 /// What lies between point `k` and the next, by Barry and Goldman's pyramid with

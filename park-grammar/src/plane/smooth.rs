@@ -26,6 +26,9 @@ use super::{cross, dist, dot, lerp, unit, Ring};
 /// Arcs turn by this much at each vertex at most, radians.
 const ARC: f64 = std::f64::consts::PI / 18.0;
 
+/// A whole number of pieces is one, whatever rounding makes of it.
+const WHOLE: f64 = 1e-6;
+
 /// Vertices that turn by less are no corners, radians.
 const STRAIGHT: f64 = 1e-6;
 
@@ -169,7 +172,7 @@ fn rounded(line: &[Vertex], radius: f64) -> Vec<Vertex> {
         let arc = taken / half;
         let inward = Coord { x: -u.y, y: u.x } * turn.signum();
         let (start, middle) = (at - u * taken, at - u * taken + inward * arc);
-        let pieces = (turn.abs() / ARC).ceil().max(1.0);
+        let pieces = (turn.abs() / ARC - WHOLE).ceil().max(1.0);
         let spoke = start - middle;
         let step = |j: usize| {
             let (sin, cos) = (turn * j as f64 / pieces).sin_cos();

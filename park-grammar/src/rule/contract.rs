@@ -30,7 +30,7 @@
 
 use geo_types::Coord;
 
-use super::parts::{centre, places, room, Parts};
+use super::parts::{centre, only, places, room, Parts};
 use super::peel::{depth, is_share, whole};
 use super::{holes, Arguments, Ask, Output, Partition};
 use crate::derive::{Scope, Spot, Value};
@@ -55,10 +55,7 @@ pub(crate) fn contract(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let split = holes::wanted(&mut arguments, scope)?;
     let mut towards: Option<Spot> = centre(scope, &mut arguments)?;
     if let Some(argument) = arguments.next() {
-        towards = places(scope, argument)?.first().copied();
-        if towards.is_none() {
-            return Err(Failure::fault(argument.value.span, "a centre is one place"));
-        }
+        towards = Some(only(&places(scope, argument)?, argument.value.span)?);
     }
     let by = match arguments.named("by") {
         Some(expr) => match &expr.kind {

@@ -1,5 +1,5 @@
 //! Regions without holes: `SplitHoles { Piece }`, the flag `SplitHoles` of rules
-//! that make rings, and `param SplitHoles = 1` for all rules of a grammar.
+//! that make rings, and `param NoHoles = 1` for all rules of a grammar.
 //!
 //! The notes want no holes in regions, and see that this "is unnecessarily complex"
 //! to keep up; regions may have them, and whoever wants none says so. A ring is cut
@@ -25,12 +25,15 @@ use crate::shape::{Heritage, Region, Role};
 /// Vertices that turn by more than this are corners, radians.
 const CORNER: f64 = 30.0 * std::f64::consts::PI / 180.0;
 
-/// The parameter and the flag.
+/// The flag.
 const SPLIT: &str = "SplitHoles";
+
+/// The parameter.
+const NONE: &str = "NoHoles";
 
 /// Whether a grammar wants no holes at all.
 pub(crate) fn everywhere(params: &BTreeMap<String, Value>) -> bool {
-    match params.get(SPLIT) {
+    match params.get(NONE) {
         Some(Value::Number(Number { value, .. })) => *value != 0.0,
         Some(Value::Bool(wanted)) => *wanted,
         _ => false,

@@ -10,7 +10,7 @@ use crate::derive::{Number, Scope, Spot, Value};
 use crate::error::Failure;
 use crate::plane::{dist, trim, Area};
 use crate::shape::{Heritage, Region, Role};
-use crate::syntax::ast::Argument;
+use crate::syntax::ast::{Argument, Span};
 
 /// What is smaller than this share of the region is rounding.
 const SLIVER: f64 = 1e-12;
@@ -77,9 +77,15 @@ pub(crate) fn centre(
     };
     let value = scope.value(expr)?;
     let spots = points::spots(scope.region, value, expr.span)?;
-    match spots.as_slice() {
-        [only] => Ok(Some(*only)),
-        _ => Err(Failure::fault(expr.span, "a centre is one place")),
+    only(&spots, expr.span).map(Some)
+}
+
+/// The place that is a centre.
+pub(crate) fn only(spots: &[Spot], span: Span) -> Result<Spot, Failure> {
+    match spots {
+        [only] => Ok(*only),
+        [] => Err(Failure::unfit(span, "this region has no such place")),
+        _ => Err(Failure::fault(span, "a centre is one place")),
     }
 }
 

@@ -36,8 +36,8 @@ use super::{holes, Arguments, Ask, Output, Partition};
 use crate::derive::{outputs, Scope};
 use crate::error::Failure;
 use crate::plane::{
-    cross, curve, difference, dist, intersection, lerp, merged, nearest_on, right, sides, slice,
-    stroke, unit, Area, Course,
+    cross, curve, difference, dist, intersection, lerp, nearest_on, ribbon, right, sides, slice,
+    unit, Area, Course,
 };
 use crate::shape::{Region, Role};
 use crate::syntax::ast::{ExprKind, Span};
@@ -61,7 +61,12 @@ pub(crate) fn split_along(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let split = holes::wanted(&mut arguments, scope)?;
     let mut line = Vec::new();
     while let Some(argument) = arguments.next() {
-        line.extend(places(scope, argument)?.into_iter().map(|spot| spot.at));
+        let spots = places(scope, argument)?;
+        if spots.is_empty() {
+            let error = "this region has no such place";
+            return Err(Failure::unfit(argument.value.span, error));
+        }
+        line.extend(spots.into_iter().map(|spot| spot.at));
     }
     line.dedup();
     let (Some(&first), Some(&last)) = (line.first(), line.last()) else {
@@ -201,6 +206,7 @@ fn extended(region: &Region, line: Vec<Coord<f64>>, width: f64) -> Through {
             break;
         };
         let (end, along) = (*end, unit(*end - *before));
+        let hair = BEYOND * size;
         let inside = region.area.contains(end) && region.area.nearest(end).1 > ON * size;
         let way = if inside {
             way_out(&region.area, end, along).unwrap_or(size)
@@ -210,9 +216,11 @@ fn extended(region: &Region, line: Vec<Coord<f64>>, width: f64) -> Through {
         if long.is_empty() {
             long.clone_from(&middle);
         }
-        middle.push(end + along * (way + BEYOND * size));
-        // As far again as a path is wide for each unit that it leans.
-        long.push(end + along * (way + 2.0 * width + BEYOND * size));
+        middle.push(end + along * (way + hair));
+        // As far again as a path is wide for each unit that it leans. The end itself
+        // is no vertex of it: the path has no joint there.
+        long.pop();
+        long.push(end + along * (way + 2.0 * width + hair));
     }
     Through { middle, long }
 }
@@ -240,18 +248,25 @@ fn cut(region: &Region, line: &Through, width: f64) -> (Vec<Area>, Vec<Area>) {
             Vec::new(),
         );
     }
-    let band = merged(stroke(&line.long, width, false));
-    let mut paths = intersection(land, &band);
-    // Beyond its end a path may have met land that the line does not reach.
-    paths.retain(|path| {
-        let middles = line
-            .middle
-            .windows(2)
-            .map(|pair| lerp(pair[0], pair[1], 0.5));
+    let band = ribbon(&line.long, width);
+    let near = BEYOND * width;
+    let met = |path: &Area| {
+        let pairs = line.middle.windows(2);
+        let middles = pairs.map(|pair| lerp(pair[0], pair[1], 0.5));
         let mut points = middles.chain(line.middle.iter().copied());
-        points.any(|p| path.contains(p))
-    });
-    (difference(land, &paths), paths)
+        points.any(|p| path.contains(p) || path.nearest(p).1 <= near)
+    };
+    // Beyond its end a path may have met land that the line does not reach.
+    let (paths, beyond): (Vec<Area>, Vec<Area>) =
+        intersection(land, &band).into_iter().partition(met);
+    // By the path as it goes on beyond the land: of its part inside, rounding would
+    // leave hairs along the boundary, which join what it divides.
+    let cover = if beyond.is_empty() {
+        band
+    } else {
+        difference(&band, &beyond)
+    };
+    (difference(land, &cover), paths)
 }
 
 /// Whether a part lies to the left of a line, by its edges that border on it.

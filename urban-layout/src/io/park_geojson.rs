@@ -4,10 +4,12 @@ use std::fmt::Write as _;
 
 use geo_types::{Coord, LineString, Polygon};
 use park_grammar::scene::{Ground, Object, Piece, Volume};
+use park_grammar::Scene;
 
 use super::coordinates::{number, push_finer};
 use super::frame::Frame;
 use crate::layout::plane::rings;
+use crate::layout::Layout;
 use crate::park::ParkStudy;
 use crate::site::boolean::area;
 
@@ -29,30 +31,36 @@ const MORE: usize = 3;
 /// parts, each feature says of which `part` it is.
 #[must_use]
 pub fn park_to_geojson(study: &ParkStudy, frame: &Frame) -> String {
-    let mut text = String::from("{\"type\":\"FeatureCollection\",");
-    if !frame.is_degrees() {
-        text.push_str("\"coordinate_units\":\"metres\",");
-    }
-    let _ = write!(
-        text,
-        "\"grammar\":{},\"seed\":{},\"features\":[",
+    let about = format!(
+        "\"grammar\":{},\"seed\":{},",
         quoted(&study.grammar),
         study.seed
     );
-    let mut writer = Writer {
-        text,
-        frame,
-        id: 0,
-        part: (study.parts.len() > 1).then_some(0),
-    };
+    let mut writer = Writer::new(frame, &about);
     for (k, part) in study.parts.iter().enumerate() {
-        writer.part = writer.part.map(|_| k);
-        part.scene.pieces.iter().for_each(|p| writer.piece(p));
-        part.scene.volumes.iter().for_each(|v| writer.volume(v));
-        part.scene.objects.iter().for_each(|o| writer.object(o));
+        if study.parts.len() > 1 {
+            writer.of = format!(",\"part\":{k}");
+        }
+        writer.scene(&part.scene);
     }
-    writer.text.push_str("\n]}\n");
-    writer.text
+    writer.finish()
+}
+
+/// Writes the designs of a layout's parks as one FeatureCollection, as
+/// [`park_to_geojson`] does; each feature says in `park` on which tile of the
+/// layout it stands, and by which `grammar`.
+#[must_use]
+pub fn parks_to_geojson(layout: &Layout, frame: &Frame) -> String {
+    let mut writer = Writer::new(frame, &format!("\"seed\":{},", layout.seed));
+    for design in &layout.parks {
+        writer.of = format!(
+            ",\"park\":{},\"grammar\":{}",
+            design.tile,
+            quoted(&design.grammar)
+        );
+        writer.scene(&design.scene);
+    }
+    writer.finish()
 }
 
 fn quoted(text: &str) -> String {
@@ -70,10 +78,37 @@ struct Writer<'f> {
     text: String,
     frame: &'f Frame,
     id: usize,
-    part: Option<usize>,
+    /// What every feature says of the park that it is part of.
+    of: String,
 }
 
-impl Writer<'_> {
+impl<'f> Writer<'f> {
+    fn new(frame: &'f Frame, about: &str) -> Self {
+        let mut text = String::from("{\"type\":\"FeatureCollection\",");
+        if !frame.is_degrees() {
+            text.push_str("\"coordinate_units\":\"metres\",");
+        }
+        text.push_str(about);
+        text.push_str("\"features\":[");
+        Self {
+            text,
+            frame,
+            id: 0,
+            of: String::new(),
+        }
+    }
+
+    fn finish(mut self) -> String {
+        self.text.push_str("\n]}\n");
+        self.text
+    }
+
+    fn scene(&mut self, scene: &Scene) {
+        scene.pieces.iter().for_each(|piece| self.piece(piece));
+        scene.volumes.iter().for_each(|volume| self.volume(volume));
+        scene.objects.iter().for_each(|object| self.object(object));
+    }
+
     fn open(&mut self, kind: &str) {
         let comma = if self.id == 0 { "" } else { "," };
         let _ = write!(
@@ -81,9 +116,7 @@ impl Writer<'_> {
             "{comma}\n{{\"type\":\"Feature\",\"properties\":{{\"kind\":\"{kind}\",\"id\":{}",
             self.id
         );
-        if let Some(part) = self.part {
-            let _ = write!(self.text, ",\"part\":{part}");
-        }
+        self.text.push_str(&self.of);
         self.id += 1;
     }
 

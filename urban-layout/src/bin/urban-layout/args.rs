@@ -7,6 +7,7 @@ use streamline::{CriteriaOptions, Criterion, Ends};
 use urban_layout::design::NetworkSpec;
 use urban_layout::field::FieldOptions;
 use urban_layout::io::svg::Paint;
+use urban_layout::park::ParkChoice;
 use urban_layout::site::Units;
 use urban_layout::splitter::NetworkOptions;
 use urban_layout::streamlines::StreamlineOptions;
@@ -22,7 +23,7 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
-    /// Lay out a site: writes layout.geojson, layout.svg and metrics.json.
+    /// Lay out a site: writes layout.geojson, layout.svg, metrics.json and parks.geojson.
     Generate(Generate),
     /// Prove a layout against its site; exit status 3 if a law fails.
     Check(Check),
@@ -84,6 +85,10 @@ pub(crate) struct Generate {
     /// Leave the network as the splits made it.
     #[arg(long)]
     pub(crate) no_optimize: bool,
+    /// How the parks that the plan makes are designed: auto, none, a grammar of the
+    /// library or a grammar's file.
+    #[arg(long, default_value = "auto", value_name = "NAME|FILE")]
+    pub(crate) park_grammar: String,
     /// Also draw layout.png.
     #[arg(long)]
     pub(crate) png: bool,
@@ -426,6 +431,11 @@ impl Generate {
             temperature: self.temperature,
             optimize: !self.no_optimize,
             network: self.network()?,
+            parks: match self.park_grammar.as_str() {
+                "auto" => ParkChoice::Fitting,
+                "none" => ParkChoice::Plain,
+                word => ParkChoice::Grammar(Box::new(urban_layout::park::grammar(word)?)),
+            },
             threads: self.threads,
             ..PlanOptions::default()
         })

@@ -1,8 +1,13 @@
-//! Parks from a grammar: `park-grammar` on what a file holds.
+//! Parks from a grammar: `park-grammar` on what a file holds, and on the parks of
+//! a plan.
+
+mod fill;
 
 use std::collections::BTreeMap;
 use std::time::Instant;
 
+pub(crate) use fill::design;
+pub use fill::ParkChoice;
 use geo_types::{MultiPolygon, Polygon};
 use park_grammar::scene::{Ground, Piece};
 use park_grammar::{grammars, Audit, DeriveOptions, Grammar, ParkError, Scene};
@@ -95,10 +100,8 @@ impl ParkStudy {
                 scene,
             }
         });
-        let name = grammar.sources().name(0).unwrap_or_default();
-        let stem = std::path::Path::new(name).file_stem();
         Ok(Self {
-            grammar: stem.map_or_else(String::new, |stem| stem.to_string_lossy().into_owned()),
+            grammar: name_of(grammar),
             seed: options.seed,
             parts: parts.collect(),
             seconds,
@@ -176,6 +179,13 @@ impl ParkStudy {
             "seconds": self.seconds,
         })
     }
+}
+
+/// What a grammar is called: its file, without folder and ending.
+fn name_of(grammar: &Grammar) -> String {
+    let name = grammar.sources().name(0).unwrap_or_default();
+    let stem = std::path::Path::new(name).file_stem();
+    stem.map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
 }
 
 /// Makes pieces share their corners, so that they tile the park in every
