@@ -62,10 +62,94 @@ fn grid(c: &mut Criterion) {
     group.finish();
 }
 
+/// Benches of one group, each a grammar on an outline.
+fn group(c: &mut Criterion, name: &str, park: &Polygon<f64>, rules: &[(&str, &str)]) {
+    let mut group = c.benchmark_group(name);
+    for (name, rules) in rules {
+        let grammar = read(rules);
+        group.bench_function(*name, |b| b.iter(|| derive(&grammar, park)));
+    }
+    group.finish();
+}
+
+/// Ten thousand things by each rule that puts them; the bay has 85,000 square
+/// metres, so that lamps have room.
+fn placing(c: &mut Criterion) {
+    let rules = [
+        ("scatter_10000", "Region -> Scatter(10000) { Lamp }"),
+        (
+            "scatter_full",
+            "Region -> Scatter(Poisson, room = 1.4) { Lamp }",
+        ),
+        (
+            "distribute_10000",
+            "Region -> Distribute(ALL: 1, count = 10000) { Bin }",
+        ),
+        (
+            "circles_1000",
+            "Region -> ScatterCircles(1000 {[1-3]}) { Sand }",
+        ),
+        (
+            "along_10000",
+            "Region -> Place(Along(ALL, 10000, offset = 1)) { Bin }",
+        ),
+    ];
+    group(c, "place", &bay(180.0), &rules);
+    let rules = [
+        ("hedge", "Region -> Sweep(ALL: 1, 0.8) { Hedge }"),
+        (
+            "hedge_mitre",
+            "Region -> Sweep(ALL: 1, 0.8, Mitre) { Hedge }",
+        ),
+        (
+            "hedge_past_1000_trees",
+            "Region -> Scatter(1000) { Tree } Sweep(ALL: 2, 2) { Hedge }",
+        ),
+    ];
+    group(c, "sweep", &bay(180.0), &rules);
+}
+
+fn selecting(c: &mut Criterion) {
+    let selectors = [
+        ("edge_index", "EDGE[0]"),
+        ("outer", "OUTER"),
+        ("cardinal_corners", "WEST"),
+        ("cardinal_dominant", "Cardinal(WEST, Dominant)"),
+        ("angle", "Angle([45, 135])"),
+        ("sector", "Sector([45, 135])"),
+        ("grow", "Grow([WEST, NORTH, EAST, SOUTH])"),
+        ("continuous", "Continuous(WEST)"),
+        ("history", "History(\"Grid\")"),
+        ("nearest", "Nearest(CENTRE, 3)"),
+        ("part", "Part(OUTER, [0.1, 0.9])"),
+        ("combination", "(OUTER and not WEST) minus EDGE[1]"),
+    ];
+    let mut group = c.benchmark_group("select");
+    let park = bay(60.0);
+    for (name, selector) in selectors {
+        // A hundred times, so that the derivation around it does not count.
+        let rules = format!(
+            "Region -> {}",
+            format!("Case {{ Length({selector}) < 0: Sand }} ").repeat(100)
+        );
+        let grammar = read(&rules);
+        group.bench_function(name, |b| b.iter(|| derive(&grammar, &park)));
+    }
+    group.finish();
+}
+
 fn fits(c: &mut Criterion) {
     let mut group = c.benchmark_group("fit");
     let concave = bay(60.0);
-    for fit in ["oriented", "inscribed", "optimised", "indexed"] {
+    for fit in [
+        "oriented",
+        "axis",
+        "inscribed",
+        "optimised",
+        "indexed",
+        "meeting",
+        "blend",
+    ] {
         let rules = format!("Region -> Grid(3, 3, fit = {fit}, min_angle = 10) {{ Meadow }}");
         let grammar = read(&rules);
         group.bench_function(fit, |b| b.iter(|| derive(&grammar, &concave)));
@@ -73,5 +157,5 @@ fn fits(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, grid, fits);
+criterion_group!(benches, grid, fits, placing, selecting);
 criterion_main!(benches);

@@ -25,6 +25,14 @@ pub enum ParkError {
         /// What is wrong with it.
         what: String,
     },
+    /// The caller sets a parameter that the grammar does not have.
+    #[error("the grammar has no parameter {name}, its parameters are: {known}")]
+    Parameter {
+        /// Its name.
+        name: String,
+        /// Those that the grammar has.
+        known: String,
+    },
     /// The derivation did not come to an end.
     #[error("the derivation was stopped: {what}; look for a rule that leads back to itself, or raise the limit")]
     Limit {

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::derive::{mesh_file, OBJECT};
 use crate::error::ParkError;
@@ -17,6 +18,8 @@ use crate::syntax::{nearest, parse, Diagnostic, Diagnostics, Sources};
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Rule {
     pub(crate) name: Name,
+    /// The name, to be shared by what the rule leaves.
+    pub(crate) label: Arc<str>,
     pub(crate) places: Vec<Name>,
     pub(crate) body: Body,
 }
@@ -214,6 +217,7 @@ impl Draft {
                         self.grammar.start.clone_from(&name.text);
                     }
                     let rule = Rule {
+                        label: name.text.as_str().into(),
                         name: name.clone(),
                         places,
                         body,
@@ -357,6 +361,7 @@ impl Check<'_> {
                 let mut known: Vec<&str> = rule::names().collect();
                 known.extend(self.grammar.functions.keys().map(String::as_str));
                 known.extend(crate::select::CALLS);
+                known.extend(crate::derive::FUNCTIONS);
                 known.push(OBJECT);
                 if !known.contains(&name.text.as_str()) {
                     let error = Diagnostic::new(

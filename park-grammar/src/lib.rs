@@ -1,11 +1,16 @@
 #![doc = include_str!("../README.md")]
 
+pub mod audit;
 mod derive;
 mod error;
+#[cfg(feature = "gltf")]
+pub mod gltf;
 mod grammar;
+pub mod grammars;
 mod index;
 pub mod library;
 pub mod mesh;
+pub mod picture;
 mod plane;
 mod rule;
 pub mod scene;
@@ -15,6 +20,7 @@ pub mod syntax;
 
 pub use geo_types;
 
+pub use audit::Audit;
 pub use derive::DeriveOptions;
 pub use error::ParkError;
 pub use grammar::{Grammar, Loader};

@@ -73,8 +73,49 @@ const fn thing(
     }
 }
 
+/// The outline of a crown from above, and of the leaves in its middle.
+macro_rules! crown_outline {
+    () => {
+        "M0.87 -0.09Q1.08 -0.32 0.75 -0.38Q0.79 -0.89 0.29 -0.78Q0.13 -1.14 -0.11 -0.85Q-0.44 -1.04 -0.55 -0.69Q-0.97 -0.6 -0.86 -0.18Q-1.12 -0.01 -0.84 0.15Q-1 0.64 -0.49 0.68Q-0.46 1.05 -0.16 0.84Q0.13 1.14 0.36 0.8Q0.76 0.84 0.77 0.43Q1.11 0.23 0.87 -0.09Z"
+    };
+}
+macro_rules! crown_middle {
+    () => {
+        "M0.36 -0.29Q0.42 -0.58 0.15 -0.42Q-0.19 -0.76 -0.33 -0.3Q-0.69 -0.26 -0.46 0.01Q-0.66 0.32 -0.3 0.36Q-0.1 0.75 0.19 0.43Q0.47 0.54 0.38 0.25Q0.79 -0.04 0.36 -0.29Z"
+    };
+}
+
+/// The picture of a crown: leaves, lighter ones in the middle, and their edge.
+macro_rules! crown {
+    ($leaves:literal, $middle:literal, $edge:literal) => {
+        concat!(
+            "<path d=\"",
+            crown_outline!(),
+            "\" fill=\"",
+            $leaves,
+            "\" fill-opacity=\".9\" stroke=\"",
+            $edge,
+            "\" stroke-width=\".05\" stroke-linejoin=\"round\"/><path d=\"",
+            crown_middle!(),
+            "\" fill=\"",
+            $middle,
+            "\" fill-opacity=\".75\"/><circle r=\".07\" fill=\"#4e3b28\"/>"
+        )
+    };
+}
+
+/// The picture of a crown in colours that a grammar brought.
+pub(crate) fn crown(leaves: &str, middle: &str, edge: &str) -> String {
+    format!(
+        "<path d=\"{}\" fill=\"{leaves}\" fill-opacity=\".9\" stroke=\"{edge}\" stroke-width=\".05\" stroke-linejoin=\"round\"/>\
+         <path d=\"{}\" fill=\"{middle}\" fill-opacity=\".75\"/><circle r=\".07\" fill=\"#4e3b28\"/>",
+        crown_outline!(),
+        crown_middle!()
+    )
+}
+
 /// All materials; the names in capitals are those of the notes.
-pub const MATERIALS: [Material; 16] = [
+pub const MATERIALS: [Material; 17] = [
     material("Lawn", "#b7d58a", false),
     material("Meadow", "#c9d98b", false),
     material("GREEN_GRASS", "#a9cf7d", false),
@@ -91,6 +132,8 @@ pub const MATERIALS: [Material; 16] = [
     material("StonePath", "#cfc6b8", true),
     material("Asphalt", "#bcbcbc", true),
     material("Deck", "#c9a779", true),
+    // Mown, and walked on.
+    material("GrassPath", "#c3dd98", true),
 ];
 
 /// All things.
@@ -99,25 +142,25 @@ pub const THINGS: [Thing; 15] = [
         "Tree",
         [0.3, 2.5, 9.0],
         "#5f9a4a",
-        r##"<circle r="1" fill="#5f9a4a" fill-opacity=".85"/><circle cx="-0.2" cy="0.2" r="0.6" fill="#74ad5c" fill-opacity=".7"/><circle r="0.12" fill="#5a4630"/>"##,
+        crown!("#5f9a4a", "#78b05f", "#365f2a"),
     ),
     thing(
         "TallTree",
         [0.35, 3.0, 15.0],
         "#4c8540",
-        r##"<circle r="1" fill="#4c8540" fill-opacity=".85"/><circle cx="-0.2" cy="0.2" r="0.6" fill="#619a52" fill-opacity=".7"/><circle r="0.12" fill="#4e3b28"/>"##,
+        crown!("#4c8540", "#639d54", "#2c5526"),
     ),
     thing(
         "SmallTree",
         [0.2, 1.5, 5.0],
         "#74ab58",
-        r##"<circle r="1" fill="#74ab58" fill-opacity=".85"/><circle cx="-0.2" cy="0.2" r="0.55" fill="#8cc070" fill-opacity=".7"/><circle r="0.12" fill="#5a4630"/>"##,
+        crown!("#74ab58", "#8ec272", "#467634"),
     ),
     thing(
         "Conifer",
         [0.3, 1.8, 14.0],
         "#3f6f4e",
-        r##"<path d="M1 0 .35.2.7.7.2.35 0 1-.2.35-.7.7-.35.2-1 0-.35-.2-.7-.7-.2-.35 0-1 .2-.35.7-.7.35-.2Z" fill="#3f6f4e"/>"##,
+        r##"<path d="M1 0L0.66 0.15L0.9 0.43L0.53 0.42L0.62 0.78L0.3 0.61L0.22 0.97L0 0.68L-0.22 0.97L-0.3 0.61L-0.62 0.78L-0.53 0.42L-0.9 0.43L-0.66 0.15L-1 0L-0.66 -0.15L-0.9 -0.43L-0.53 -0.42L-0.62 -0.78L-0.3 -0.61L-0.22 -0.97L0 -0.68L0.22 -0.97L0.3 -0.61L0.62 -0.78L0.53 -0.42L0.9 -0.43L0.66 -0.15Z" fill="#3f6f4e" stroke="#26472f" stroke-width=".05" stroke-linejoin="round"/><path d="M0 0L0.92 0M0 0L0.83 0.4M0 0L0.57 0.72M0 0L0.2 0.9M0 0L-0.2 0.9M0 0L-0.57 0.72M0 0L-0.83 0.4M0 0L-0.92 0M0 0L-0.83 -0.4M0 0L-0.57 -0.72M0 0L-0.2 -0.9M0 0L0.2 -0.9M0 0L0.57 -0.72M0 0L0.83 -0.4" fill="none" stroke="#2f5a3c" stroke-width=".05"/><circle r=".1" fill="#26472f"/>"##,
     ),
     thing(
         "Bush",
@@ -183,7 +226,7 @@ pub const THINGS: [Thing; 15] = [
         "Gazebo",
         [2.5, 2.8, 3.5],
         "#b58b5a",
-        r##"<path d="M1 0 .71.71 0 1-.71.71-1 0-.71-.71 0-1 .71-.71Z" fill="#b58b5a"/><circle r="0.12" fill="#7a5a35"/>"##,
+        r##"<path d="M1 0L0.71 -0.71L0 -1L-0.71 -0.71L-1 0L-0.71 0.71L0 1L0.71 0.71Z" fill="#b58b5a" stroke="#7a5a35" stroke-width=".05"/><path d="M0 0L1 0L0.71 -0.71ZM0 0L0 -1L-0.71 -0.71ZM0 0L-1 0L-0.71 0.71ZM0 0L0 1L0.71 0.71Z" fill="#a67d4d"/><path d="M0 0L1 0M0 0L0.71 -0.71M0 0L0 -1M0 0L-0.71 -0.71M0 0L-1 0M0 0L-0.71 0.71M0 0L0 1M0 0L0.71 0.71" stroke="#7a5a35" stroke-width=".04"/><circle r=".12" fill="#7a5a35"/>"##,
     ),
 ];
 

@@ -75,3 +75,75 @@ fn bad_outlines_are_named() {
         assert!(matches!(found, Err(ParkError::Outline { .. })), "{found:?}");
     }
 }
+
+/// The park is 80 by 50: the largest circle in it has a radius of 25, and lies
+/// anywhere between 25 m from both ends.
+#[test]
+fn sizes_follow_the_region() {
+    let disc = |radius: &str| {
+        let rules = format!("Region -> Place(POLE) {{ Circle({radius}) Sand }}");
+        derive(&rules).map(|park| {
+            let ring = park.pieces[0].polygon.exterior();
+            let doubled: f64 = ring.lines().map(|l| l.determinant()).sum();
+            // A polygon of 36 corners.
+            (doubled / (36.0 * (std::f64::consts::PI / 18.0).sin())).sqrt()
+        })
+    };
+    for (radius, wanted) in [
+        ("0.9 * room", 22.5),
+        ("min(8, 0.4 * room)", 8.0),
+        ("min(80, 0.4 * room, 30 ft)", 9.144),
+        ("max(3 m, sqrt(area) / 20)", 3.1622776601683795),
+        ("0.1 * extent_x + 0.2 * extent_y", 18.0),
+    ] {
+        let found = disc(radius).expect("derives");
+        assert!((found - wanted).abs() < 1e-2, "{radius}: {found}");
+    }
+    for (radius, wanted) in [
+        ("min()", "min needs numbers to choose from"),
+        ("sqrt(4, 9)", "sqrt needs one number"),
+        ("sqrt(0 - area)", "no root of less than nothing"),
+        ("sqrt(room)", "the root of a length"),
+        ("max(3 m, 20 deg)", "do not go together"),
+        ("mim(3, 4)", "did you mean min?"),
+    ] {
+        let error = disc(radius).expect_err("no number").to_string();
+        assert!(error.contains(wanted), "{radius}: {error}");
+    }
+}
+
+/// What is planted is not walked on, wherever it lies.
+#[test]
+fn materials_say_what_is_walked_on() {
+    let park = derive("Region -> Grid(2, 2) { Lawn } { Gravel } { Circle(4) FlowerBed Statue }");
+    let park = park.expect("derives");
+    let walked: Vec<&str> = park
+        .pieces
+        .iter()
+        .filter(|piece| piece.ground == Ground::Path)
+        .map(|piece| piece.material.as_str())
+        .collect();
+    assert_eq!(walked, ["Gravel"; 4]);
+    assert_eq!(park.objects[0].ground, Ground::Region);
+    let park = derive("Region -> Grid(2, 1) { Lawn } { GrassPath }").expect("derives");
+    assert_eq!(park.pieces[2].ground, Ground::Path);
+}
+
+/// A path ends with the boundary up to rounding; once it left a hair there that
+/// joined both sides.
+#[test]
+fn paths_cut_regions_through() {
+    let park = polygon![
+        (x: -0.02, y: -6.48), (x: 66.73, y: -99.95), (x: 181.98, y: -19.75),
+        (x: 114.17, y: 77.28), (x: 76.63, y: 52.85), (x: 30.43, y: 21.49)
+    ];
+    for y in 0..40 {
+        let y = 0.3 + 0.01 * f64::from(y);
+        let rules = format!(
+            "grammar 1\nRegion -> SplitAlong((0, 0.4), (0.2, {y}), (1, 0.5), curve = smooth, width = 3) {{ Lawn | Meadow | Gravel }}"
+        );
+        let grammar = Grammar::new(&rules).expect("reads");
+        let scene = grammar.derive(&park, &DeriveOptions::default());
+        assert_eq!(scene.map(|s| s.pieces.len()), Ok(3), "{y}");
+    }
+}

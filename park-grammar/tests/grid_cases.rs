@@ -62,6 +62,40 @@ fn the_simple_square_park() {
     assert_eq!(scene.objects.len(), 5);
 }
 
+/// A third block without a shape is done on the crossings themselves.
+#[test]
+fn crossings_are_centres() {
+    let rules = "Region -> Grid(3, 2, width = 2) { Meadow } { Paving } { Gravel Lamp }";
+    let scene = park(&rectangle(82.0, 50.0), rules).expect("derives");
+    let centres = of(&scene, "Gravel");
+    assert_eq!(centres.len(), 2);
+    assert!(centres.iter().all(|c| near(size(&c.polygon), 4.0)));
+    assert_eq!(scene.objects.len(), 2);
+    // Two columns of two arms each, and three pieces of the row between.
+    let paths = of(&scene, "Paving");
+    assert_eq!(paths.len(), 7);
+    let all: f64 = paths.iter().map(|p| size(&p.polygon)).sum();
+    assert!(near(all, 2.0 * (2.0 * 48.0) + 2.0 * 78.0), "{all}");
+    assert_eq!(of(&scene, "Meadow").len(), 6);
+    // With a bar in the place of a block too; an empty block makes none, nor is
+    // there a crossing where there are no paths.
+    for (blocks, count) in [
+        ("{ Meadow | Paving | Gravel }", 2),
+        ("{ Meadow } { Paving } {}", 0),
+        ("{ Meadow } {} { Gravel }", 0),
+    ] {
+        let rules = format!("Region -> Grid(3, 2) {blocks}");
+        let scene = park(&rectangle(82.0, 50.0), &rules).expect("derives");
+        assert_eq!(of(&scene, "Gravel").len(), count, "{blocks}");
+    }
+    // Lines that lean by 45 degrees make crossings of 2 m by 2 m / cos 45.
+    let rules = "Region -> Grid(2 {a 45}, 2, width = 2) { Meadow } { Paving } { Gravel }";
+    let scene = park(&rectangle(80.0, 50.0), rules).expect("derives");
+    let centres = of(&scene, "Gravel");
+    assert!(centres.len() == 1 && near(size(&centres[0].polygon), 4.0 * 2_f64.sqrt()));
+    assert_eq!(of(&scene, "Paving").len(), 4);
+}
+
 /// One block with bars is the same as three blocks.
 #[test]
 fn the_alternative_notation() {
@@ -314,12 +348,28 @@ fn nonsense_is_refused() {
         ("Region -> Grid(2 {a 85}, 2) { Meadow }", "80 degrees"),
         (
             "Region -> Grid(2, 2, fit = left) { Meadow }",
-            "a way to fit",
+            "fit is own, oriented",
         ),
         ("Region -> Grid(2, 2, middle = own) { Meadow }", "middle is"),
         (
             "Region -> Grid(2, 2, of = [blend, own]) { Meadow }",
             "two fits",
+        ),
+        (
+            "Region -> Grid(2, 2, exact) { Meadow }",
+            "did you mean Exact?",
+        ),
+        (
+            "Region -> Grid(2, 2, Through) { Meadow }",
+            "its flags are Exact, Apart",
+        ),
+        (
+            "Region -> Grid(2, 2, fit = Oriented) { Meadow }",
+            "did you mean oriented?",
+        ),
+        (
+            "Region -> Grid(2, 2, middle = CENTRE) { Meadow }",
+            "did you mean centre?",
         ),
         (
             "Region -> Grid(2, 2, widht = 3) { Meadow }",

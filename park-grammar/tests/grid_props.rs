@@ -185,7 +185,7 @@ proptest! {
     fn grids_tile_any_region(
         outline in outline(),
         arguments in arguments(),
-        paths in prop_oneof![Just("{}"), Just("{ Paving }"), Just("{ Paving } { Circle(3) Sand }"), Just("{} { Romb(4) Sand }")],
+        paths in prop_oneof![Just("{}"), Just("{ Paving }"), Just("{ Paving } { Circle(3) Sand }"), Just("{} { Romb(4) Sand }"), Just("{ Paving } { Sand }")],
         points in vec((-80.0..80.0_f64, -80.0..80.0_f64), 30),
         seed in 0..1000_u64,
     ) {
@@ -303,8 +303,9 @@ proptest! {
         angle in -3.2..3.2_f64,
         mirror in any::<bool>(),
         by in (-1e4..1e4_f64, -1e4..1e4_f64),
+        centre in prop_oneof![Just("Circle(2) Sand"), Just("Sand")],
     ) {
-        let rules = format!("Region -> Grid({count}, {count}, fit = oriented) {{ Meadow }} {{ Paving }} {{ Circle(2) Sand }}");
+        let rules = format!("Region -> Grid({count}, {count}, fit = oriented) {{ Meadow }} {{ Paving }} {{ {centre} }}");
         let motion = Motion { angle, mirror, by: Coord { x: by.0, y: by.1 } };
         let here = park(&outline, &rules, 0);
         let there = park(&motion.polygon(&outline), &rules, 0);
@@ -348,6 +349,7 @@ proptest! {
             Just(""), Just(", middle = centre"), Just(", symmetry = mirror"), Just(", symmetry = pair"), Just(", symmetry = extended"),
         ],
         rule in 0..4_usize,
+        centre in prop_oneof![Just("Circle(2) Gravel"), Just("Gravel Place(CENTRE) { Lamp }")],
     ) {
         let cell = match rule {
             0 => format!("Place(({}, {})) {{ Bush }}", at.0, at.1),
@@ -361,7 +363,7 @@ proptest! {
             }
             _ => "Grid(2, 2, fit = bounding) { Meadow Place(CENTRE) { Tree } }".to_owned(),
         };
-        let rules = format!("Region -> Grid({columns}, {rows}{treatment}) {{ Cell }} {{ Paving }} {{ Circle(2) Gravel }}\nCell -> {cell}");
+        let rules = format!("Region -> Grid({columns}, {rows}{treatment}) {{ Cell }} {{ Paving }} {{ {centre} }}\nCell -> {cell}");
         let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)];
         let outline = Polygon::new(corners.iter().map(|&(x, y)| Coord { x, y }).collect(), vec![]);
         let scene = park(&outline, &rules, 3).expect("derives");

@@ -62,11 +62,11 @@ fn places_of_all_sorts() {
 #[test]
 fn things_face_as_they_are_told() {
     for (facing, degrees) in [
-        ("IN", -90.0),
-        ("OUT", 90.0),
-        ("ALONG", 0.0),
+        ("in", -90.0),
+        ("out", 90.0),
+        ("along", 0.0),
         ("30", 30.0),
-        ("CENTRE", -90.0),
+        ("centre", -90.0),
     ] {
         let park = derive(&format!(
             "Region -> Place(EDGE[1], facing = {facing}) {{ Bench }}"
@@ -103,9 +103,9 @@ fn rows_of_trees() {
     let park = derive("Region -> Distribute(EDGE[0]: 2, 5) { Tree }");
     assert_eq!(park.objects.len(), 10);
     assert!(has(&park.objects, 2., 2.) && has(&park.objects, 2., 48.));
-    let park = derive("Region -> Distribute(EDGE[0]: 2, 5, MIDDLES) { Tree }");
+    let park = derive("Region -> Distribute(EDGE[0]: 2, 5, Middles) { Tree }");
     assert!(park.objects.len() == 9 && has(&park.objects, 2., 2. + 46. / 18.));
-    let park = derive("Region -> Distribute(EDGE[0]: 2, 10, EXACT) { Tree }");
+    let park = derive("Region -> Distribute(EDGE[0]: 2, 10, Exact) { Tree }");
     // 4 steps, the rest of 6 at both ends.
     assert!(park.objects.len() == 5 && has(&park.objects, 2., 5.) && has(&park.objects, 2., 45.));
     let park = derive("Region -> Distribute(EDGE[0]: 2, count = 3) { Tree }");
@@ -179,7 +179,7 @@ fn hedges_turn_at_corners() {
     // North and east facing sides of 20 each, 2 wide; at the two outer corners 4
     // are shared, round the inner one lies a quarter of a disc or a square.
     let straight = 4.0 * 40.0 - 2.0 * 4.0;
-    assert!((corner(", MITRE") - straight - 4.0).abs() < 1e-6);
+    assert!((corner(", Mitre") - straight - 4.0).abs() < 1e-6);
     let arc = 9.0 * 0.5 * 4.0 * 10_f64.to_radians().sin();
     assert!((corner("") - straight - arc).abs() < 1e-6);
 }
@@ -237,7 +237,7 @@ fn circles_do_not_touch() {
     assert!(park.pieces.len() > 41, "{}", park.pieces.len());
     // As places: a fountain at each.
     let park =
-        derive("Region -> Place(Spots) { Fountain }\nSpots -> ScatterCircles(4 {4}, POISSON)");
+        derive("Region -> Place(Spots) { Fountain }\nSpots -> ScatterCircles(4 {4}, Poisson)");
     assert_eq!(park.objects.len(), 4);
 }
 
@@ -258,7 +258,7 @@ fn things_are_scattered() {
     let park = derive("Region -> Scatter(40, margin = 5, room = 0.5) { Tree }");
     assert!(park.objects.iter().all(|o| o.at.x > 5.3 && o.at.y < 44.7));
     // Crowns of 2.5 m at most 2 radii apart: a third of the ground at least.
-    let park = derive("Region -> Scatter(POISSON) { Tree }");
+    let park = derive("Region -> Scatter(Poisson) { Tree }");
     let covered = park.objects.len() as f64 * std::f64::consts::PI * 6.25;
     assert!(covered > 4000.0 / 2.2, "{covered}");
 }
@@ -327,6 +327,20 @@ fn objects_know_their_ground() {
 fn faults_are_named() {
     for (rules, what) in [
         ("Region -> Scatter { Tree }", "how many things"),
+        (
+            "Region -> Scatter(POISSON) { Tree }",
+            "did you mean Poisson?",
+        ),
+        ("Region -> Place(centre) { Tree }", "did you mean CENTRE?"),
+        ("Region -> Place(west) { Tree }", "did you mean WEST?"),
+        (
+            "Region -> Place(CENTRE, facing = CENTRE) { Tree }",
+            "did you mean centre?",
+        ),
+        (
+            "Region -> Place(Cardinal(WEST, Comass)) { Tree }",
+            "did you mean Compass?",
+        ),
         ("Region -> Scatter(3)", "nothing to scatter"),
         ("Region -> Distribute(OUTER)", "nothing to distribute"),
         (

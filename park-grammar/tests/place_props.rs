@@ -7,13 +7,13 @@ use proptest::prelude::*;
 /// Grammars that put things in every way.
 const GRAMMARS: [&str; 8] = [
     "Region -> Scatter(40) { 3: Tree | 2: Bush | Bench }",
-    "Region -> Scatter(POISSON, room = 1.5) { Tree }",
+    "Region -> Scatter(Poisson, room = 1.5) { Tree }",
     "Region -> Distribute(ALL, 6) { 2: Tree | Lamp } Scatter(20) { SmallTree }",
     "Region -> ScatterCircles(4 {[1.5-4]}) { Gravel Statue } Scatter(20, room = 0.6) { Tree } Distribute(ALL: 1, 4) { Lamp }",
     "Region -> Sweep(WEST or NORTH: 0.5, 0.8) { Hedge } Distribute(ALL: 1, 3) { Bush } Place(CENTRE, (0.3, 0.7)) { Fountain }",
     "Region -> Place(CENTRE) { Tree } Sweep([(0.1, 0.5), (0.9, 0.5)], 1) { Wall } Sweep(AREA, height = 1) { Bush }",
-    "Region -> Distribute(Part(ALL, [0.2, 0.9]): 1.5, 3, THROUGH) { Circle(0.8) Soil Tree }",
-    "Region -> Distribute(Parametrise([0.1, 0.9], [0, 0.5], inset = 2), 2, MIDDLES) { Lamp } Place(CORNER[0], CORNER[2], Along(ALL, 7)) { Bench }",
+    "Region -> Distribute(Part(ALL, [0.2, 0.9]): 1.5, 3, Through) { Circle(0.8) Soil Tree }",
+    "Region -> Distribute(Parametrise([0.1, 0.9], [0, 0.5], inset = 2), 2, Middles) { Lamp } Place(CORNER[0], CORNER[2], Along(ALL, 7)) { Bench }",
 ];
 
 fn cases(few: u32) -> ProptestConfig {

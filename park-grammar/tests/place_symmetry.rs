@@ -16,15 +16,15 @@ fn rectangle() -> Polygon<f64> {
 
 const CELLS: [&str; 10] = [
     "Distribute(WEST: 2, 5) { 2: Tree | Lamp }",
-    "Distribute(EDGE[0] or EDGE[1]: 1.5, 3, facing = ALONG) { Bench | Lamp }",
-    "Distribute(Part(ALL, [0.1, 0.45]): 1, 2, EXACT) { Lamp }",
+    "Distribute(EDGE[0] or EDGE[1]: 1.5, 3, facing = along) { Bench | Lamp }",
+    "Distribute(Part(ALL, [0.1, 0.45]): 1, 2, Exact) { Lamp }",
     "Distribute(Parametrise([0.1, 0.6], [0.5, 1], inset = 2), 2) { Bush }",
     "Place((0.8, 0.1), CORNER[1], EDGE[2]: 0.3, facing = 20) { Bench }",
     "Place(Along(Part(OUTER, [0.1, 0.9]), 4, offset = 2)) { Lamp }",
     "Distribute(Sector([10, 100]): 1, 2) { Lamp }",
     "Distribute(Angle([80, 100]) or Continuous(WEST): 1, 2) { Lamp }",
-    "Distribute(Cardinal(NORTH, GROW): 1, 2, count = 4) { Lamp | Bin }",
-    "Sweep(PATH: 0.3, 0.6) { Hedge } Distribute(not OUTER: 2, 3, MIDDLES) { Flowers }",
+    "Distribute(Cardinal(NORTH, Grow): 1, 2, count = 4) { Lamp | Bin }",
+    "Sweep(PATH: 0.3, 0.6) { Hedge } Distribute(not OUTER: 2, 3, Middles) { Flowers }",
 ];
 
 /// Both mirror images of each object stand too, and look the mirrored way.

@@ -36,6 +36,7 @@ pub mod metrics;
 pub mod network;
 mod options;
 mod parceler;
+pub mod park;
 mod plan;
 mod plane;
 pub mod planner;

@@ -1,5 +1,6 @@
 //! What a run may be told: sizes, field, seed, weights and limits.
 
+use crate::park::ParkChoice;
 use crate::splitter::NetworkOptions;
 
 /// Which cross field guides the streets (supplement 2013, section 4).
@@ -95,6 +96,9 @@ pub struct PlanOptions {
     /// Where the streets of a region come from its specification as a network,
     /// how: see [`NetworkOptions`]. Default: `None`, from streamlines alone.
     pub network: Option<NetworkOptions>,
+    /// How the parks of the plan are designed. Default: by grammars of the library
+    /// that suit their size and shape.
+    pub parks: ParkChoice,
     /// Worker threads; 0 for as many as there are cores. The result does not
     /// depend on it.
     pub threads: usize,
@@ -117,6 +121,7 @@ impl Default for PlanOptions {
             templates: Vec::new(),
             template_energy: 0.02,
             network: None,
+            parks: ParkChoice::Fitting,
             threads: 0,
         }
     }

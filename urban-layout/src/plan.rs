@@ -7,6 +7,7 @@ use crate::error::{Error, Result};
 use crate::layout::Layout;
 use crate::metrics::Seconds;
 use crate::options::PlanOptions;
+use crate::park;
 use crate::planner::{self, seed::Path, Pending, Tree};
 use crate::progress::{Progress, Stage};
 use crate::site::Site;
@@ -148,16 +149,20 @@ fn finish(
     fill(&mut tree, root, splitters, options, progress)?;
     let filling = begin.elapsed().as_secs_f64();
     let begin = Instant::now();
-    let layout = assemble(
+    let mut layout = assemble(
         &tree,
         site,
         options.seed,
         options.street_width,
         options.min_frontage,
     );
+    let assembling = begin.elapsed().as_secs_f64();
+    let begin = Instant::now();
+    park::design(&mut layout, options);
     let others = vec![
         ("fill".to_owned(), filling),
-        ("assemble".to_owned(), begin.elapsed().as_secs_f64()),
+        ("assemble".to_owned(), assembling),
+        ("parks".to_owned(), begin.elapsed().as_secs_f64()),
     ];
     let seconds = Seconds {
         split: begun.split,

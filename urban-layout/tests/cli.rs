@@ -14,7 +14,12 @@ fn a_plan_is_written_and_certified() {
     assert!(said.contains("parcels"), "{said}");
     assert_eq!(
         names(&bench.path("plan")),
-        ["layout.geojson", "layout.svg", "metrics.json"]
+        [
+            "layout.geojson",
+            "layout.svg",
+            "metrics.json",
+            "parks.geojson"
+        ]
     );
     let said = bench.expect(0, &["check", "site.geojson", "plan/layout.geojson"]);
     assert!(said.lines().count() > 15 && !said.contains("FAILED"));
@@ -81,9 +86,11 @@ fn variations_have_a_folder_each_and_a_page() {
             "001/layout.geojson",
             "001/layout.svg",
             "001/metrics.json",
+            "001/parks.geojson",
             "002/layout.geojson",
             "002/layout.svg",
             "002/metrics.json",
+            "002/parks.geojson",
             "index.html"
         ]
     );

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::standing::{clear, inside, Disc};
+use super::standing::{inside, Disc};
 use super::{Node, Places, Run, Spot, Value};
 use crate::error::Failure;
 use crate::library;
@@ -55,7 +55,7 @@ impl Run<'_> {
             size.radius = size.radius.max(more.radius);
             size.spread = size.spread.max(more.spread);
         };
-        if depth >= self.options.depth {
+        if depth >= self.limits.depth() {
             return Ok(size);
         }
         let grammar = self.grammar;
@@ -100,7 +100,7 @@ impl Run<'_> {
     pub(crate) fn room(node: &Node, spot: Spot, radius: f64, reach: f64) -> bool {
         node.standing.apart(spot.at, radius, reach)
             && inside(&node.region.area, spot.at, radius)
-            && node.carved.iter().all(|area| clear(area, spot.at, radius))
+            && node.carved.clear(spot.at, radius)
     }
 
     /// A thing at a place, if there is room for it; else it is left out, and

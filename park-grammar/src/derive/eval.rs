@@ -1,16 +1,18 @@
 //! Expressions, evaluated for a region.
 
-use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use geo_types::Coord;
 
+use super::limits::{Limits, Watch};
+use super::math;
 use super::object::{declared, OBJECT};
 use super::random::Stream;
 use super::value::{Late, Number, SizeRange, Sizing, Value};
-use crate::error::{Failure, ParkError};
+use crate::error::Failure;
 use crate::grammar::Grammar;
+use crate::plane::{dot, pole};
 use crate::rule::points;
 use crate::select::{named, Selection};
 use crate::shape::Region;
@@ -24,10 +26,6 @@ pub(crate) type Places = BTreeMap<String, Value>;
 /// Deepest calls of functions within each other.
 const DEEPEST: usize = 64;
 
-/// Most expressions evaluated in a derivation: selections that are passed on from
-/// rule to rule are evaluated anew for each region, and may double each time.
-const STEPS: usize = 5_000_000;
-
 /// What an expression is evaluated for.
 pub(crate) struct Scope<'s> {
     pub(crate) grammar: &'s Grammar,
@@ -36,21 +34,22 @@ pub(crate) struct Scope<'s> {
     pub(crate) region: &'s Region,
     pub(crate) chance: &'s mut Stream,
     pub(crate) depth: usize,
-    /// Expressions evaluated so far in the derivation.
-    pub(crate) steps: &'s Cell<usize>,
+    pub(crate) limits: &'s Limits<'s>,
+    /// The rule that the region follows.
+    pub(crate) rule: &'s Arc<str>,
 }
 
 type Found = Result<Value, Failure>;
 
-impl Scope<'_> {
+impl<'s> Scope<'s> {
+    /// What a long operation looks at on its way.
+    pub(crate) fn watch(&self) -> Watch<'s> {
+        Watch::new(self.limits, self.rule)
+    }
+
     pub(crate) fn value(&mut self, expr: &Expr) -> Found {
         let span = expr.span;
-        self.steps.set(self.steps.get() + 1);
-        if self.steps.get() > STEPS {
-            return Err(Failure::Stopped(ParkError::Limit {
-                what: format!("it came to {STEPS} values"),
-            }));
-        }
+        self.limits.value(self.rule)?;
         Ok(match &expr.kind {
             ExprKind::Number(value, unit) => Value::Number(Number {
                 value: *value,
@@ -116,6 +115,19 @@ impl Scope<'_> {
         Ok(Value::Word(name.to_owned()))
     }
 
+    /// The word that an expression is, if it is one; nothing is evaluated, so
+    /// that flags may be looked for among values that are drawn by chance.
+    pub(crate) fn word<'e>(&'e self, expr: &'e Expr) -> Option<&'e str> {
+        let ExprKind::Name(name) = &expr.kind else {
+            return None;
+        };
+        match self.places.get(name).or_else(|| self.params.get(name)) {
+            Some(Value::Word(word)) => Some(word),
+            Some(_) => None,
+            None => Some(name),
+        }
+    }
+
     fn call(&mut self, name: &Name, arguments: &[Argument], blocks: &[Block]) -> Found {
         if let Some(function) = self.grammar.function(&name.text) {
             let places = self.bind(name.span, &function.places, arguments)?;
@@ -126,6 +138,9 @@ impl Scope<'_> {
         }
         if name.text == OBJECT {
             return declared(self, name, arguments);
+        }
+        if let Some(value) = math::call(self, name, arguments)? {
+            return Ok(value);
         }
         crate::select::call(self, name, arguments, blocks)
     }
@@ -150,7 +165,8 @@ impl Scope<'_> {
             region: self.region,
             chance: self.chance,
             depth: self.depth + 1,
-            steps: self.steps,
+            limits: self.limits,
+            rule: self.rule,
         })
     }
 
@@ -212,6 +228,13 @@ impl Scope<'_> {
                 }
                 _ => Err(Failure::fault(span, "a place has one size")),
             },
+            Value::Word(word) if word == "CENTRE" => {
+                let centre = points::spots(self.region, Value::Word(word), span)?;
+                match items {
+                    [size] => Ok(Value::Spots(points::with_room(centre, self.metres(size)?))),
+                    _ => Err(Failure::fault(span, "a place has one size")),
+                }
+            }
             Value::List(list) => {
                 let numbers = self.wholes(items)?;
                 let [k] = numbers[..] else {
@@ -409,8 +432,9 @@ impl Scope<'_> {
     }
 }
 
-fn arithmetic(op: BinaryOp, a: Number, b: Number, span: Span) -> Found {
-    // What has no unit takes the other's; others are brought to metres or radians.
+/// Two numbers in a common unit: what has no unit takes the other's; others are
+/// brought to metres or radians.
+pub(super) fn compared(a: Number, b: Number, span: Span) -> Result<(f64, f64, Unit), Failure> {
     let common = if a.unit == b.unit || b.unit == Unit::None {
         Some((a.value, b.value, a.unit))
     } else if a.unit == Unit::None {
@@ -422,14 +446,18 @@ fn arithmetic(op: BinaryOp, a: Number, b: Number, span: Span) -> Found {
         let both = a.metres().zip(b.metres());
         both.map(|(x, y)| (x, y, Unit::Metres))
     };
-    let Some((x, y, unit)) = common else {
+    common.ok_or_else(|| {
         let error = format!(
             "{} and {} do not go together",
             a.unit.as_str(),
             b.unit.as_str()
         );
-        return Err(Failure::fault(span, error));
-    };
+        Failure::fault(span, error)
+    })
+}
+
+fn arithmetic(op: BinaryOp, a: Number, b: Number, span: Span) -> Found {
+    let (x, y, unit) = compared(a, b, span)?;
     let number = |value: f64| {
         if value.is_finite() {
             Ok(Value::Number(Number { value, unit }))
@@ -455,11 +483,14 @@ fn arithmetic(op: BinaryOp, a: Number, b: Number, span: Span) -> Found {
 }
 
 /// The names of attributes, for hints.
-pub(crate) const ATTRIBUTES: [&str; 13] = [
+pub(crate) const ATTRIBUTES: [&str; 16] = [
     "area",
     "perimeter",
     "width",
     "height",
+    "extent_x",
+    "extent_y",
+    "room",
     "sides",
     "depth",
     "convex",
@@ -486,6 +517,10 @@ fn attribute(region: &Region, name: &str) -> Option<Value> {
         "perimeter" => metres(Selection::all(region).length()),
         "width" => metres(high.x - low.x),
         "height" => metres(high.y - low.y),
+        "extent_x" => metres(own_extent(region, 0)),
+        "extent_y" => metres(own_extent(region, 1)),
+        // Radius of the largest circle that it holds.
+        "room" => metres(region.area.nearest(pole(&region.area)).1),
         "sides" => Number::plain(region.sides as f64),
         "depth" => Number::plain(region.depth as f64),
         "holes" => Number::plain(region.area.holes.len() as f64),
@@ -497,6 +532,18 @@ fn attribute(region: &Region, name: &str) -> Option<Value> {
         "convex" => return Some(Value::Bool(convex(region))),
         _ => return None,
     }))
+}
+
+/// How far a region reaches along one of its own axes, those that a grid follows.
+fn own_extent(region: &Region, axis: usize) -> f64 {
+    let along = region.local.axes()[axis];
+    let ends = |(low, high): (f64, f64), &p: &Coord<f64>| {
+        let at = dot(along, p);
+        (low.min(at), high.max(at))
+    };
+    let none = (f64::INFINITY, f64::NEG_INFINITY);
+    let (low, high) = region.area.outer.iter().fold(none, ends);
+    high - low
 }
 
 fn convex(region: &Region) -> bool {

@@ -9,7 +9,8 @@ use std::collections::BTreeMap;
 
 use geo_types::Coord;
 
-use crate::plane::{dist, Area};
+use super::Patches;
+use crate::plane::{dot, Area};
 
 /// Shares of distances that are rounding.
 const ROUNDING: f64 = 1e-9;
@@ -31,7 +32,7 @@ pub(crate) struct Standing {
     /// Side of a square; 0 before the first disc.
     cell: f64,
     widest: f64,
-    pub(crate) built: Vec<Area>,
+    pub(crate) built: Patches,
     /// The objects of the scene that stand here.
     pub(crate) objects: Vec<usize>,
 }
@@ -39,10 +40,6 @@ pub(crate) struct Standing {
 impl Standing {
     pub(crate) fn is_empty(&self) -> bool {
         self.discs.is_empty() && self.built.is_empty()
-    }
-
-    pub(crate) fn discs(&self) -> &[Disc] {
-        &self.discs
     }
 
     pub(crate) fn add(&mut self, disc: Disc) {
@@ -56,6 +53,29 @@ impl Standing {
         self.discs.push(disc);
     }
 
+    /// The footprints that may meet a box.
+    pub(crate) fn near(&self, low: Coord<f64>, high: Coord<f64>) -> Vec<Disc> {
+        if self.discs.is_empty() {
+            return Vec::new();
+        }
+        let by = Coord {
+            x: self.widest,
+            y: self.widest,
+        };
+        let mut found = self.within(low - by, high + by).collect::<Vec<_>>();
+        found.sort_unstable();
+        found.into_iter().map(|k| self.discs[k]).collect()
+    }
+
+    /// The numbers of the discs in the squares that a box meets.
+    fn within(&self, low: Coord<f64>, high: Coord<f64>) -> impl Iterator<Item = usize> + '_ {
+        let (low, high) = (self.square(low), self.square(high));
+        (low.0..=high.0).flat_map(move |row| {
+            let row = self.cells.range((row, low.1)..=(row, high.1));
+            row.flat_map(|(_, here)| here.iter().copied())
+        })
+    }
+
     fn square(&self, at: Coord<f64>) -> (i64, i64) {
         let number = |x: f64| (x / self.cell).floor() as i64;
         (number(at.y), number(at.x))
@@ -65,8 +85,7 @@ impl Standing {
     /// to: footprints never overlap, and `reach` beyond the own one keeps crowns
     /// apart too.
     pub(crate) fn apart(&self, at: Coord<f64>, radius: f64, reach: f64) -> bool {
-        self.apart_from_discs(at, radius, reach)
-            && self.built.iter().all(|area| clear(area, at, radius))
+        self.apart_from_discs(at, radius, reach) && self.built.clear(at, radius)
     }
 
     fn apart_from_discs(&self, at: Coord<f64>, radius: f64, reach: f64) -> bool {
@@ -75,35 +94,27 @@ impl Standing {
         }
         let range = reach.max(radius) + self.widest;
         let by = Coord { x: range, y: range };
-        let (low, high) = (self.square(at - by), self.square(at + by));
-        let free = |&k: &usize| {
+        let free = |k: usize| {
             let disc = self.discs[k];
             let mut least = radius + disc.radius;
             if reach > radius {
                 least = least.max(reach + disc.spread);
             }
-            dist(disc.at, at) >= least * (1.0 - ROUNDING)
+            let away = at - disc.at;
+            dot(away, away) >= (least * (1.0 - ROUNDING)).powi(2)
         };
-        (low.0..=high.0).all(|row| {
-            let mut row = self.cells.range((row, low.1)..=(row, high.1));
-            row.all(|(_, here)| here.iter().all(free))
-        })
+        self.within(at - by, at + by).all(free)
     }
 }
 
 /// Whether a disc lies outside of an area.
 pub(crate) fn clear(area: &Area, at: Coord<f64>, radius: f64) -> bool {
-    let (low, high) = area.extent();
-    let near = at.x + radius >= low.x
-        && at.x - radius <= high.x
-        && at.y + radius >= low.y
-        && at.y - radius <= high.y;
-    !near || (!area.contains(at) && area.nearest(at).1 >= radius * (1.0 - ROUNDING))
+    area.keeps_away(at, radius * (1.0 - ROUNDING)) && !area.contains(at)
 }
 
 /// Whether a disc lies in an area.
 pub(crate) fn inside(area: &Area, at: Coord<f64>, radius: f64) -> bool {
-    area.contains(at) && area.nearest(at).1 >= radius * (1.0 - ROUNDING)
+    area.keeps_away(at, radius * (1.0 - ROUNDING)) && area.contains(at)
 }
 
 #[cfg(test)]

@@ -149,6 +149,13 @@ impl Value {
             Self::Word(word) => format!("the word {word}, which means nothing here"),
             other => other.sort().to_owned(),
         };
-        Failure::fault(span, format!("expected {wanted}, found {found}"))
+        let failure = Failure::fault(span, format!("expected {wanted}, found {found}"));
+        match self {
+            Self::Word(word) => match crate::rule::in_other_case(word) {
+                Some(other) => failure.hint(format!("did you mean {other}?")),
+                None => failure,
+            },
+            _ => failure,
+        }
     }
 }

@@ -61,7 +61,8 @@ pub(crate) fn strip(line: &[Coord<f64>], width: f64, corner: Corner) -> Vec<Area
     for [before, at, after] in joints {
         let (u, v) = (unit(at - before), unit(after - at));
         let turn = cross(u, v).atan2(dot(u, v));
-        if turn > 1e-9 {
+        // However little: without a wedge a slit would be left.
+        if turn > 0.0 {
             areas.push(Area::new(
                 wedge(at, [right(u), right(v)], turn, width, corner),
                 Vec::new(),
@@ -357,6 +358,19 @@ mod tests {
         // A quarter of a polygon of 36 corners.
         let round = 8.0 + 9.0 * 0.5 * ARC.sin();
         assert!((size(Corner::Round) - round).abs() < 1e-9);
+    }
+
+    /// Vertices on a straight line, as booleans leave them there, turn by rounding.
+    #[test]
+    fn vertices_that_hardly_turn_leave_no_slits() {
+        let bent = [3e-10, -3e-10, 1e-10].iter().zip(1..);
+        let mut line = vec![coord! { x: 0., y: 0. }];
+        line.extend(bent.map(|(&x, y)| coord! { x: x, y: f64::from(y) }));
+        line.push(coord! { x: 0., y: 4. });
+        let band = super::super::union(&strip(&line, 1.0, Corner::Round));
+        assert_eq!(band.len(), 1);
+        let square = area(&[(0., 0.), (0., 4.), (4., 4.), (4., 0.)]);
+        assert_eq!(inset_lines(&square, &[line], 1.0).len(), 1);
     }
 
     #[test]

@@ -9,14 +9,20 @@ mod boolean;
 mod boxes;
 mod climb;
 mod curve;
+mod erode;
 mod farthest;
 mod inset;
 mod pole;
+mod rest;
+mod route;
 mod sample;
+mod sight;
 mod smooth;
 mod split;
 mod stroke;
 mod trim;
+mod voronoi;
+mod weld;
 
 use geo_types::{Coord, LineString, Polygon};
 
@@ -28,14 +34,20 @@ pub(crate) use boxes::{
 };
 pub(crate) use climb::climb;
 pub(crate) use curve::{curve, Course};
+pub(crate) use erode::erode;
 pub(crate) use farthest::farthest;
 pub(crate) use inset::{inset_lines, keep_apart, ribbon, strip, Corner, Segment};
 pub(crate) use pole::{middle, pole};
+pub(crate) use rest::rest;
+pub(crate) use route::Router;
 pub(crate) use sample::Sampler;
+pub(crate) use sight::{leaves, sees};
 pub(crate) use smooth::{smooth, Smoothing};
 pub(crate) use split::{clipped, split, Line};
 pub(crate) use stroke::{circle, stroke};
 pub(crate) use trim::{trim, with_vertices};
+pub(crate) use voronoi::{aside, heart, leeway, Border, Diagram, Site};
+pub(crate) use weld::{weld, Weld};
 
 /// The vertices of a closed line, the first not repeated.
 pub(crate) type Ring = Vec<Coord<f64>>;
@@ -99,12 +111,24 @@ impl Area {
         let mut best = (p, f64::INFINITY);
         for (a, b) in self.rings().flat_map(|ring| sides(ring)) {
             let q = nearest_on(a, b, p);
-            let away = dist(p, q);
+            let away = square(p - q);
             if away < best.1 {
                 best = (q, away);
             }
         }
-        best
+        (best.0, best.1.sqrt())
+    }
+
+    /// Whether the boundary is at least so far from a point.
+    pub(crate) fn keeps_away(&self, p: Coord<f64>, far: f64) -> bool {
+        let aside = |p: f64, a: f64, b: f64| p + far <= a.min(b) || p - far >= a.max(b);
+        let mut edges = self.rings().flat_map(|ring| sides(ring));
+        edges.all(|(a, b)| {
+            // Most edges lie far to one side.
+            aside(p.x, a.x, b.x)
+                || aside(p.y, a.y, b.y)
+                || square(p - nearest_on(a, b, p)) >= far * far
+        })
     }
 
     /// The centre of mass.
@@ -187,8 +211,13 @@ pub(crate) fn cross(a: Coord<f64>, b: Coord<f64>) -> f64 {
     a.x * b.y - a.y * b.x
 }
 
+fn square(a: Coord<f64>) -> f64 {
+    dot(a, a)
+}
+
+/// The length of a vector. Parks are metres wide: no square overflows.
 pub(crate) fn norm(a: Coord<f64>) -> f64 {
-    a.x.hypot(a.y)
+    square(a).sqrt()
 }
 
 pub(crate) fn dist(a: Coord<f64>, b: Coord<f64>) -> f64 {

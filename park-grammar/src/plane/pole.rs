@@ -2,10 +2,7 @@
 
 use geo_types::Coord;
 
-use super::Area;
-
-/// The search ends at cells this small, as a share of the area's size.
-const FINEST: f64 = 1e-4;
+use super::{farthest, sides, Area, Segment};
 
 /// The centre of mass where that lies inside, else the point that is farthest
 /// from the boundary.
@@ -18,53 +15,10 @@ pub(crate) fn middle(area: &Area) -> Coord<f64> {
     }
 }
 
-/// The point farthest from the boundary, to within [`FINEST`]: cells of a grid,
-/// the most promising divided on (Garcia-Castellanos and Lombardo's question,
-/// answered as Mapbox's polylabel does).
+/// The point farthest from the boundary, which has the most room around it.
 pub(crate) fn pole(area: &Area) -> Coord<f64> {
-    let (low, high) = area.extent();
-    let size = (high.x - low.x).max(high.y - low.y);
-    let inside = |p: Coord<f64>| {
-        let away = area.nearest(p).1;
-        if area.contains(p) {
-            away
-        } else {
-            -away
-        }
-    };
-    let mut best = (area.centroid(), inside(area.centroid()));
-    // Middle, half of the side, room at the middle.
-    let mut cells = vec![(super::lerp(low, high, 0.5), 0.5 * size)];
-    while let Some((_, half)) = cells.first().copied() {
-        let mut next = Vec::new();
-        for &(at, _) in &cells {
-            let room = inside(at);
-            if room > best.1 {
-                best = (at, room);
-            }
-            next.push((at, room));
-        }
-        if half < FINEST * size {
-            break;
-        }
-        // Only cells that may hold something better.
-        let reach = half * std::f64::consts::SQRT_2;
-        next.retain(|&(_, room)| room + reach > best.1 + FINEST * size);
-        let quarter = 0.5 * half;
-        cells = next
-            .iter()
-            .flat_map(|&(at, _)| {
-                [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)].map(|(x, y)| {
-                    let by = Coord {
-                        x: x * quarter,
-                        y: y * quarter,
-                    };
-                    (at + by, quarter)
-                })
-            })
-            .collect();
-    }
-    best.0
+    let edges: Vec<Segment> = area.rings().flat_map(|ring| sides(ring)).collect();
+    farthest(area, &edges).0
 }
 
 #[cfg(test)]
@@ -100,6 +54,6 @@ mod tests {
         // The legs are 1 wide, and their corners with the bar of 0.4 have more
         // room: the circle through the bay's corner that touches two sides.
         let room = 1.0_f64.min(0.4) / 2.0;
-        assert!(deep.nearest(at).1 > room.max(0.5) - 1e-3);
+        assert!(deep.nearest(at).1 > room.max(0.5) - 1e-9);
     }
 }

@@ -1,8 +1,13 @@
 //! The arguments of an operation, by place and by name.
+//!
+//! Words among them are written so that they tell what they are: flags, which
+//! stand alone, in capitalised words as the notes' `CornersOrthogonal` (`Exact`,
+//! `Through`); modes, the values of named arguments, in lower case (`facing =
+//! in`); selectors and places in capitals (`OUTER`, `CENTRE`).
 
 use crate::derive::{Number, Scope, Value};
 use crate::error::Failure;
-use crate::syntax::ast::{Argument, Expr, Operation};
+use crate::syntax::ast::{Argument, Expr, ExprKind, Operation};
 use crate::syntax::nearest;
 
 /// Arguments that are asked for one by one; what nobody asked for is a fault.
@@ -12,6 +17,7 @@ pub(crate) struct Arguments<'a> {
     named: Vec<&'a Argument>,
     next: usize,
     asked: Vec<&'static str>,
+    flags: Vec<&'static str>,
 }
 
 impl<'a> Arguments<'a> {
@@ -24,6 +30,7 @@ impl<'a> Arguments<'a> {
             named,
             next: 0,
             asked: Vec::new(),
+            flags: Vec::new(),
         }
     }
 
@@ -69,17 +76,36 @@ impl<'a> Arguments<'a> {
         self.named(name).map(|expr| scope.metres(expr)).transpose()
     }
 
+    /// The mode that an argument by name is set to, one of those that the rule
+    /// knows; `None` if nothing is said.
+    pub(crate) fn mode<T: Copy>(
+        &mut self,
+        scope: &mut Scope<'_>,
+        name: &'static str,
+        modes: &[(&'static str, T)],
+    ) -> Result<Option<T>, Failure> {
+        let Some(expr) = self.named(name) else {
+            return Ok(None);
+        };
+        mode(scope, expr, name, modes).map(Some)
+    }
+
     /// Whether a flag stands among the arguments that follow; passes it by.
-    pub(crate) fn flag(&mut self, scope: &mut Scope<'_>, word: &str) -> Result<bool, Failure> {
-        for k in self.next..self.plain.len() {
-            if let Value::Word(found) = scope.value(&self.plain[k].value)? {
-                if found == word {
-                    self.plain.remove(k);
-                    return Ok(true);
-                }
-            }
+    pub(crate) fn flag(
+        &mut self,
+        scope: &mut Scope<'_>,
+        word: &'static str,
+    ) -> Result<bool, Failure> {
+        self.flags.push(word);
+        let rest = self.plain.iter().enumerate().skip(self.next);
+        let found = rest
+            .filter(|(_, argument)| scope.word(&argument.value) == Some(word))
+            .map(|(k, _)| k)
+            .next();
+        if let Some(k) = found {
+            self.plain.remove(k);
         }
-        Ok(false)
+        Ok(found.is_some())
     }
 
     /// That all have been asked for.
@@ -87,7 +113,13 @@ impl<'a> Arguments<'a> {
         let name = &self.operation.name.text;
         if let Some(argument) = self.plain.get(self.next) {
             let error = format!("{name} has no use for this value");
-            return Err(Failure::fault(argument.value.span, error));
+            let failure = Failure::fault(argument.value.span, error);
+            return Err(match &argument.value.kind {
+                ExprKind::Name(word) if !self.flags.is_empty() => {
+                    meant(failure, word, &self.flags, "its flags are")
+                }
+                _ => failure,
+            });
         }
         for argument in self.named {
             let Some(given) = argument.name.as_ref() else {
@@ -96,12 +128,49 @@ impl<'a> Arguments<'a> {
             if !self.asked.contains(&given.text.as_str()) {
                 let error = format!("{name} has no argument {}", given.text);
                 let failure = Failure::fault(given.span, error);
-                return Err(match nearest(&given.text, self.asked.iter().copied()) {
-                    Some(near) => failure.hint(format!("did you mean {near}?")),
-                    None => failure.hint(format!("it has {}", self.asked.join(", "))),
-                });
+                return Err(meant(failure, &given.text, &self.asked, "it has"));
             }
         }
         Ok(())
+    }
+}
+
+/// The mode that an expression names.
+pub(crate) fn mode<T: Copy>(
+    scope: &mut Scope<'_>,
+    expr: &Expr,
+    name: &str,
+    modes: &[(&'static str, T)],
+) -> Result<T, Failure> {
+    let word = match (&expr.kind, scope.word(expr)) {
+        (ExprKind::Name(_), word) => word.map(str::to_owned),
+        _ => match scope.value(expr)? {
+            Value::Word(word) => Some(word),
+            _ => None,
+        },
+    };
+    let word = word.as_deref();
+    if let Some((_, found)) = modes.iter().find(|(known, _)| word == Some(known)) {
+        return Ok(*found);
+    }
+    let known: Vec<&str> = modes.iter().map(|(known, _)| *known).collect();
+    let (last, others) = known.split_last().unwrap_or((&"", &[]));
+    let error = format!("{name} is {} or {last}", others.join(", "));
+    let failure = Failure::fault(expr.span, error);
+    Err(
+        match word.and_then(|word| nearest(word, known.into_iter())) {
+            Some(near) => failure.hint(format!("did you mean {near}?")),
+            None => failure,
+        },
+    )
+}
+
+/// A failure with the known word that another may have been meant to be, or all
+/// of them.
+fn meant(failure: Failure, word: &str, known: &[&str], all: &str) -> Failure {
+    match nearest(word, known.iter().copied()) {
+        Some(near) => failure.hint(format!("did you mean {near}?")),
+        None if known.is_empty() => failure,
+        None => failure.hint(format!("{all} {}", known.join(", "))),
     }
 }

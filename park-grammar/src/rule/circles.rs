@@ -11,13 +11,13 @@
 //! both 0 but for touching), `least`, the number of circles below which the
 //! operation does not suit the region (1). Large circles are put first; one that
 //! has no room anywhere is tried with the smallest radius of its range, and then
-//! left out. The flag `POISSON` spreads a given number evenly: a full pattern is
+//! left out. The flag `Poisson` spreads a given number evenly: a full pattern is
 //! made, and so many of it chosen.
 
 use geo_types::Coord;
 
 use super::{darts, Arguments, Primitive};
-use crate::derive::{Disc, Node, Places, Run, Scope, Spot, Standing, Stream, Value};
+use crate::derive::{Disc, Node, Places, Run, Scope, Spot, Standing, Stream, Value, Watch};
 use crate::error::Failure;
 use crate::plane::{middle, pole, Sampler};
 use crate::shape::Region;
@@ -43,7 +43,7 @@ struct Plan {
 impl Plan {
     fn read(scope: &mut Scope<'_>, operation: &Operation) -> Result<Self, Failure> {
         let mut arguments = Arguments::new(operation);
-        let even = arguments.flag(scope, "POISSON")?;
+        let even = arguments.flag(scope, "Poisson")?;
         let (mut count, mut sizes) = (None, Vec::new());
         if let Some(argument) = arguments.next() {
             let span = argument.value.span;
@@ -89,25 +89,26 @@ impl Plan {
     /// The circles, where `free` ground is.
     fn scatter(
         &self,
+        watch: &Watch<'_>,
         region: &Region,
         chance: &mut Stream,
         free: &dyn Fn(Coord<f64>, f64) -> bool,
-    ) -> Vec<Spot> {
+    ) -> Result<Vec<Spot>, Failure> {
         let sampler = Sampler::new(&region.area);
         match self.count {
-            None => self.full(chance, &sampler, free),
+            None => self.full(watch, chance, &sampler, free),
             Some(count) if self.even => {
-                let mut all = self.full(chance, &sampler, free);
+                let mut all = self.full(watch, chance, &sampler, free)?;
                 while all.len() > count {
                     let k = chance.below(all.len());
                     all.swap_remove(k);
                 }
-                all
+                Ok(all)
             }
             Some(count) => {
                 let mut best: Vec<Spot> = Vec::new();
                 for round in 0..ROUNDS {
-                    let found = self.some(count, round, region, chance, &sampler, free);
+                    let found = self.some(watch, count, round, region, chance, &sampler, free)?;
                     if round == 0 || found.len() > best.len() {
                         best = found;
                     }
@@ -115,20 +116,25 @@ impl Plan {
                         break;
                     }
                 }
-                best
+                Ok(best)
             }
         }
     }
 
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "one round of a search that has no state of its own"
+    )]
     fn some(
         &self,
+        watch: &Watch<'_>,
         count: usize,
         round: usize,
         region: &Region,
         chance: &mut Stream,
         sampler: &Sampler,
         free: &dyn Fn(Coord<f64>, f64) -> bool,
-    ) -> Vec<Spot> {
+    ) -> Result<Vec<Spot>, Failure> {
         let range = |k: usize| self.sizes[k % self.sizes.len()];
         let mut wanted: Vec<(f64, f64)> = (0..count)
             .map(|k| (chance.between(range(k)), range(k)[0]))
@@ -138,6 +144,7 @@ impl Plan {
         let mut spots = Vec::new();
         let mut missed = 0;
         for (radius, smallest) in wanted {
+            watch.tick()?;
             if missed == darts::MISSES {
                 break;
             }
@@ -166,7 +173,7 @@ impl Plan {
                 });
             }
         }
-        spots
+        Ok(spots)
     }
 
     fn fits(
@@ -182,13 +189,14 @@ impl Plan {
 
     fn full(
         &self,
+        watch: &Watch<'_>,
         chance: &mut Stream,
         sampler: &Sampler,
         free: &dyn Fn(Coord<f64>, f64) -> bool,
-    ) -> Vec<Spot> {
+    ) -> Result<Vec<Spot>, Failure> {
         let mut standing = Standing::default();
         let mut spots = Vec::new();
-        darts::fill(chance, sampler, self.gap, |chance, at| {
+        darts::fill(watch, chance, sampler, self.gap, |chance, at| {
             let range = self.sizes[spots.len() % self.sizes.len()];
             let radius = chance.between(range);
             if !self.fits(&standing, free, at, radius) {
@@ -205,8 +213,8 @@ impl Plan {
                 facing: 0.0,
             });
             Some(radius)
-        });
-        spots
+        })?;
+        Ok(spots)
     }
 
     fn enough(&self, operation: &Operation, found: usize) -> Result<(), Failure> {
@@ -224,8 +232,9 @@ pub(crate) fn circles(scope: &mut Scope<'_>, operation: &Operation) -> Result<Ve
     let plan = Plan::read(scope, operation)?;
     let region = scope.region;
     let free = |at, radius| crate::derive::inside(&region.area, at, radius);
+    let watch = scope.watch();
     let mut chance = scope.chance.child();
-    let spots = plan.scatter(region, &mut chance, &free);
+    let spots = plan.scatter(&watch, region, &mut chance, &free)?;
     plan.enough(operation, spots.len())?;
     Ok(spots)
 }
@@ -237,6 +246,7 @@ pub(crate) fn act(
     operation: &Operation,
     places: &Places,
 ) -> Result<(), Failure> {
+    let watch = run.watch(node);
     let plan = Plan::read(&mut run.scope(node, places), operation)?;
     let mut chance = node.chance.child();
     let free = |at, radius| {
@@ -247,7 +257,7 @@ pub(crate) fn act(
         };
         Run::room(node, spot, radius, radius)
     };
-    let spots = plan.scatter(&node.region, &mut chance, &free);
+    let spots = plan.scatter(&watch, &node.region, &mut chance, &free)?;
     plan.enough(operation, spots.len())?;
     for spot in spots {
         for branch in operation.blocks.iter().flat_map(|b| &b.branches) {

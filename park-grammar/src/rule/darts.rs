@@ -2,7 +2,8 @@
 
 use geo_types::Coord;
 
-use crate::derive::Stream;
+use crate::derive::{Stream, Watch};
+use crate::error::Failure;
 use crate::plane::Sampler;
 
 /// Darts thrown for one disc before it is given up.
@@ -40,15 +41,17 @@ fn dart(chance: &mut Stream, sampler: &Sampler) -> Option<Coord<f64>> {
 /// place if it has room there and tells its radius, and new ones are tried around
 /// those that stand. Where the area falls into parts, darts begin in each.
 pub(crate) fn fill(
+    watch: &Watch<'_>,
     chance: &mut Stream,
     sampler: &Sampler,
     gap: f64,
     mut put: impl FnMut(&mut Stream, Coord<f64>) -> Option<f64>,
-) {
+) -> Result<(), Failure> {
     let (mut missed, mut count) = (0, 0);
     while missed < FULL && count < MOST {
+        watch.tick()?;
         let Some(at) = dart(chance, sampler) else {
-            return;
+            return Ok(());
         };
         let Some(radius) = put(chance, at) else {
             missed += 1;
@@ -58,6 +61,7 @@ pub(crate) fn fill(
         count += 1;
         let mut active = vec![(at, radius)];
         while !active.is_empty() && count < MOST {
+            watch.tick()?;
             let k = chance.below(active.len());
             let (middle, radius) = active[k];
             let reach = 2.0 * radius + gap;
@@ -83,4 +87,5 @@ pub(crate) fn fill(
             }
         }
     }
+    Ok(())
 }

@@ -6,10 +6,10 @@
 //! row runs, as far as the footprint needs unless said. The second, or `spacing`,
 //! is the distance from one thing to the next, twice the spread unless said. It
 //! is adjusted so that a whole number of steps fits, with things at both ends;
-//! with `MIDDLES` they stand in the middles of the steps, with `EXACT` the
+//! with `Middles` they stand in the middles of the steps, with `Exact` the
 //! spacing is kept and what is left over divided among both ends. Where the row
 //! turns by more than 30 degrees it has a corner, with a thing on it; with
-//! `THROUGH` the row goes on as if there were none. `count` divides all of the
+//! `Through` the row goes on as if there were none. `count` divides all of the
 //! row by so many things. Of several branches one follows the other, each as many
 //! times as the number before its colon says. Things face into the land;
 //! `facing` as in `Place`.
@@ -70,12 +70,12 @@ pub(crate) fn distribute(
     let mut arguments = Arguments::new(operation);
     let (target, offset) = Target::read(&mut arguments, &mut scope)?;
     let mut layout = Layout::Ends;
-    for (word, named) in [("MIDDLES", Layout::Middles), ("EXACT", Layout::Exact)] {
+    for (word, named) in [("Middles", Layout::Middles), ("Exact", Layout::Exact)] {
         if arguments.flag(&mut scope, word)? {
             layout = named;
         }
     }
-    let through = arguments.flag(&mut scope, "THROUGH")?;
+    let through = arguments.flag(&mut scope, "Through")?;
     let spacing = match arguments.next() {
         Some(argument) => Some(scope.metres(&argument.value)?),
         None => arguments.metres(&mut scope, "spacing")?,

@@ -15,13 +15,17 @@ mod peel;
 pub(crate) mod place;
 pub(crate) mod points;
 pub(crate) mod primitive;
+mod rays;
 mod rings;
+mod runs;
 mod scatter;
+mod sites;
 mod smooth;
 pub(crate) mod smoothing;
 mod split_along;
 mod sweep;
 mod target;
+mod voronoi;
 
 use crate::derive::{Node, Places, Run, Scope};
 use crate::error::Failure;
@@ -30,7 +34,7 @@ use crate::scene::Ground;
 use crate::shape::Region;
 use crate::syntax::ast::Operation;
 
-pub(crate) use arguments::Arguments;
+pub(crate) use arguments::{mode, Arguments};
 pub(crate) use primitive::Primitive;
 
 /// What a partition rule is asked.
@@ -44,6 +48,8 @@ pub(crate) struct Ask<'a, 's> {
     pub(crate) path_width: f64,
     /// The shape of centres, if the grammar gives one.
     pub(crate) centre: Option<Primitive>,
+    /// Whether the grammar says what becomes of centres, whatever their shape.
+    pub(crate) centred: bool,
 }
 
 /// One of the outputs of a partition, in the order of the blocks.
@@ -120,12 +126,15 @@ pub(crate) const OPERATORS: &[Operator] = &[
     operator("Polygon", Deed::Shape),
     operator("Grid", Deed::Divide(grid::grid)),
     operator("FitRectangle", Deed::Divide(fit_rectangle::fit_rectangle)),
+    operator("CastRays", Deed::Divide(rays::rays)),
     operator("Peel", Deed::Part(peel::peel)),
     operator("Contract", Deed::Part(contract::contract)),
     operator("Rings", Deed::Part(rings::rings)),
     operator("Smooth", Deed::Part(smooth::smooth)),
     operator("SplitAlong", Deed::Part(split_along::split_along)),
     operator("SplitHoles", Deed::Part(holes::split_holes)),
+    operator("VoronoiRegions", Deed::Divide(voronoi::voronoi)),
+    operator("VoronoiSmoothed", Deed::Divide(voronoi::voronoi)),
     operator("Place", Deed::Act(place::place)),
     operator("Scatter", Deed::Act(scatter::scatter)),
     operator("Distribute", Deed::Act(distribute::distribute)),
@@ -137,12 +146,29 @@ pub(crate) const OPERATORS: &[Operator] = &[
     operator("Parametrise", Deed::Points),
 ];
 
-/// Words that mean something as an argument of some operation: flags and modes.
+/// Words that mean something as an argument of some operation; how they are
+/// written tells flags, modes and places apart: see [`arguments`].
 pub(crate) const WORDS: &[&str] = &[
-    "CENTRE",
-    // Grid and FitRectangle.
+    // Flags of operations.
     "Exact",
     "Apart",
+    "Poisson",
+    "Middles",
+    "Through",
+    "Mitre",
+    // Flags of selectors.
+    "Line",
+    "Compass",
+    "Leave",
+    "Rest",
+    "Corners",
+    "Angle",
+    "Sector",
+    "Grow",
+    "Dominant",
+    "Northern",
+    "Split",
+    // Modes: ways to fit.
     "own",
     "oriented",
     "bounding",
@@ -152,6 +178,7 @@ pub(crate) const WORDS: &[&str] = &[
     "indexed",
     "meeting",
     "blend",
+    // Modes: symmetry.
     "centre",
     "left",
     "right",
@@ -174,34 +201,65 @@ pub(crate) const WORDS: &[&str] = &[
     "average",
     "chaikin",
     "round",
-    // Placing and selectors.
+    // VoronoiRegions.
+    "Weighted",
+    "Around",
+    // CastRays.
+    "nearest",
+    "unconnected",
+    "all",
+    "loop",
+    "open",
+    "pairs",
+    "opposites",
+    "delaunay",
+    "tree",
+    "drop",
+    "end",
+    // Modes: which way things face.
+    "in",
+    "out",
+    "along",
+    "random",
+    // Places, and what edges are to the rules that made them.
     "AREA",
-    "POISSON",
-    "MIDDLES",
-    "EXACT",
-    "THROUGH",
-    "MITRE",
-    "IN",
-    "OUT",
-    "ALONG",
-    "RANDOM",
-    "LINE",
-    "COMPASS",
-    "LEAVE",
-    "REST",
-    "CORNERS",
-    "ANGLE",
-    "SECTOR",
-    "GROW",
-    "DOMINANT",
-    "NORTHERN",
-    "SPLIT",
+    "CENTRE",
+    "POLE",
     "BASE",
     "FLANK",
     "SEGMENT",
     "SEAM",
     "ANY",
 ];
+
+/// The word that this one is but for the case of its letters.
+pub(crate) fn in_other_case(word: &str) -> Option<&'static str> {
+    let all = WORDS.iter().chain(&crate::select::NAMES).copied();
+    let same = |known: &&str| *known != word && known.eq_ignore_ascii_case(word);
+    all.filter(same).max_by_key(|known| {
+        // A place or selector is asked for more often than a mode.
+        known.chars().filter(|c| c.is_uppercase()).count()
+    })
+}
+
+/// The argument `width`, where the grammar wants paths at all.
+fn path_width(
+    arguments: &mut Arguments<'_>,
+    scope: &mut Scope<'_>,
+    default: f64,
+) -> Result<f64, Failure> {
+    match arguments.named("width") {
+        Some(expr) => {
+            let width = scope.metres(expr)?;
+            if width < 0.0 {
+                return Err(Failure::fault(expr.span, "a width is 0 or more"));
+            }
+            // Empty braces say that there are none, however wide.
+            Ok(if default > 0.0 { width } else { 0.0 })
+        }
+        None => Ok(default),
+    }
+}
 
 pub(crate) fn operator_named(name: &str) -> Option<&'static Operator> {
     OPERATORS.iter().find(|o| o.name == name)
@@ -215,4 +273,21 @@ pub(crate) fn names() -> impl Iterator<Item = &'static str> {
         .chain(materials)
         .chain(library::THINGS.iter().map(|t| t.name))
         .chain(library::BARRIERS.iter().map(|b| b.name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Flags are capitalised words, modes are in lower case, places in capitals.
+    #[test]
+    fn words_tell_what_they_are() {
+        for word in WORDS {
+            let capitals = word.chars().filter(|c| c.is_uppercase()).count();
+            let letters = word.chars().filter(|c| c.is_alphabetic()).count();
+            let first = word.starts_with(char::is_uppercase);
+            let flag = first && capitals < letters && !word.contains('_');
+            assert!(flag || capitals == 0 || capitals == letters, "{word}");
+        }
+    }
 }

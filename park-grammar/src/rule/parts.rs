@@ -25,7 +25,7 @@ pub(crate) struct Parts<'r> {
 }
 
 impl<'r> Parts<'r> {
-    pub(crate) fn new(region: &'r Region, rule: &'r str) -> Self {
+    pub(crate) fn new(region: &'r Region, rule: &'static str) -> Self {
         Self {
             region,
             heritage: Heritage::new(region, rule),

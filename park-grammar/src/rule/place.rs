@@ -1,8 +1,9 @@
 //! `Place(CENTRE) { Tree }`, `Place((0.8, 0.1), CORNER[0]) { Circle(1) Tree }`,
-//! `Place(OUTER: 0.25, facing = IN) { Bench }`: something at places of the region.
+//! `Place(OUTER: 0.25, facing = in) { Bench }`: something at places of the region.
 //!
 //! Places are `CENTRE` (the centre of mass, or if that lies outside the point
-//! with the most room), points in local coordinates, corners, places that other
+//! with the most room), `POLE` (that point, so that `Circle(0.9 * room)` has room
+//! in any region), points in local coordinates, corners, places that other
 //! rules give, and parameters along selections (`OUTER: 0.25`; without one the
 //! middle). What is to stand at a place of the boundary is drawn in until its
 //! footprint lies inside, or by `offset`.

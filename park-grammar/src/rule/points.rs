@@ -8,10 +8,10 @@ use std::f64::consts::FRAC_PI_2;
 
 use geo_types::Coord;
 
-use super::{circles, operator_named, Arguments, Deed};
+use super::{circles, mode, operator_named, Arguments, Deed};
 use crate::derive::{Node, Places, Run, Scope, Spot, Value};
 use crate::error::Failure;
-use crate::plane::{farthest, middle, right, sides, unit, Area, Segment};
+use crate::plane::{middle, pole, right, unit};
 use crate::select::{parametrise, range, Lines, Selection};
 use crate::shape::Region;
 use crate::syntax::ast::{Body, Expr, ExprKind, Operation, Span};
@@ -99,6 +99,7 @@ pub(crate) fn spots(region: &Region, value: Value, span: Span) -> Result<Vec<Spo
     };
     Ok(match value {
         Value::Word(word) if word == "CENTRE" => vec![spot(middle(&region.area))],
+        // Where there is the most room, which `room` tells.
         Value::Word(word) if word == "POLE" => vec![spot(pole(&region.area))],
         // Nothing is drawn where a cell has no such coordinates.
         Value::Point(at) => region.local.point(at).into_iter().map(spot).collect(),
@@ -113,12 +114,6 @@ pub(crate) fn spots(region: &Region, value: Value, span: Span) -> Result<Vec<Spo
         }
         other => return Err(other.wrong(span, "a place")),
     })
-}
-
-/// The point with the most room around it.
-fn pole(area: &Area) -> Coord<f64> {
-    let edges: Vec<Segment> = area.rings().flat_map(|ring| sides(ring)).collect();
-    farthest(area, &edges).0
 }
 
 /// The place at a share of a selection, facing into the land.
@@ -164,6 +159,8 @@ fn corners(scope: &mut Scope<'_>, operation: &Operation) -> Result<Vec<Spot>, Fa
     let region = scope.region;
     let corners = (0..region.sides).filter_map(|k| region.corner(k));
     let mut found: Vec<Coord<f64>> = corners.collect();
+    // A side without edges begins where the next one does.
+    found.dedup();
     if let Some(selection) = of {
         let ends: Vec<Coord<f64>> = selection.lines(region).concat();
         found.retain(|at| ends.contains(at));
@@ -290,7 +287,16 @@ fn collect(
     Ok(())
 }
 
-/// Which way things face: `facing = IN`, `OUT`, `ALONG`, `CENTRE`, `RANDOM` or an
+/// What the words of `facing =` mean.
+const FACING: [(&str, Facing); 5] = [
+    ("in", Facing::Own),
+    ("out", Facing::Out),
+    ("along", Facing::Along),
+    ("centre", Facing::Centre),
+    ("random", Facing::Random),
+];
+
+/// Which way things face: `facing = in`, `out`, `along`, `centre`, `random` or an
 /// angle from the region's own east.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Facing {
@@ -312,15 +318,8 @@ impl Facing {
         let Some(expr) = arguments.named("facing") else {
             return Ok(Self::Own);
         };
-        if let ExprKind::Name(word) = &expr.kind {
-            match word.as_str() {
-                "IN" => return Ok(Self::Own),
-                "OUT" => return Ok(Self::Out),
-                "ALONG" => return Ok(Self::Along),
-                "CENTRE" => return Ok(Self::Centre),
-                "RANDOM" => return Ok(Self::Random),
-                _ => {}
-            }
+        if scope.word(expr).is_some() {
+            return mode(scope, expr, "facing", &FACING);
         }
         let number = scope.number(expr)?;
         let wrong = || Failure::fault(expr.span, "a direction was expected");

@@ -5,7 +5,7 @@
 //! kinds, chosen by seed with the weights before their colons. Things keep apart
 //! by their `room`, a radius that is the spread of the thing unless given, so
 //! that crowns do not meet, and stay clear of what was put before. `margin` is
-//! kept between footprints and the boundary. With `POISSON` the region is filled
+//! kept between footprints and the boundary. With `Poisson` the region is filled
 //! as densely as the rooms allow (Poisson-disc sampling), or so many of such a
 //! pattern are chosen. What finds no room is left out, and counted; after 30 in a row that
 //! find none the rest is.
@@ -36,7 +36,7 @@ pub(crate) fn scatter(
     let kinds = kinds(run, node, operation, places)?;
     let mut scope = run.scope(node, places);
     let mut arguments = Arguments::new(operation);
-    let full = arguments.flag(&mut scope, "POISSON")?;
+    let full = arguments.flag(&mut scope, "Poisson")?;
     let mut count = match arguments.next() {
         Some(argument) => Some(scope.count(&argument.value)?),
         None => None,
@@ -50,7 +50,7 @@ pub(crate) fn scatter(
     arguments.done()?;
     if count.is_none() && !full {
         let failure = Failure::fault(operation.span, "how many things?");
-        return Err(failure.hint("write Scatter(12), Scatter(density = 2) or Scatter(POISSON)"));
+        return Err(failure.hint("write Scatter(12), Scatter(density = 2) or Scatter(Poisson)"));
     }
     let before = run.tally();
     let sampler = Sampler::new(&node.region.area);
@@ -72,21 +72,27 @@ pub(crate) fn scatter(
     };
     let mut chosen: Vec<(Coord<f64>, usize)> = Vec::new();
     if full {
-        darts::fill(&mut chance, &sampler, 0.0, |chance, at| {
-            let k = kinds.choose(chance);
-            let size = kinds.all[k].2;
-            free(node, &own, size, at).then(|| {
-                let radius = reach(size);
-                own.add(Disc {
-                    at,
-                    radius,
-                    spread: radius,
-                });
-                chosen.push((at, k));
-                // Without room of its own a thing has that of its footprint.
-                radius.max(size.radius).max(0.1)
-            })
-        });
+        darts::fill(
+            &run.watch(node),
+            &mut chance,
+            &sampler,
+            0.0,
+            |chance, at| {
+                let k = kinds.choose(chance);
+                let size = kinds.all[k].2;
+                free(node, &own, size, at).then(|| {
+                    let radius = reach(size);
+                    own.add(Disc {
+                        at,
+                        radius,
+                        spread: radius,
+                    });
+                    chosen.push((at, k));
+                    // Without room of its own a thing has that of its footprint.
+                    radius.max(size.radius).max(0.1)
+                })
+            },
+        )?;
         while count.is_some_and(|count| chosen.len() > count) {
             let k = chance.below(chosen.len());
             chosen.swap_remove(k);
@@ -95,7 +101,7 @@ pub(crate) fn scatter(
     }
     let (mut left, mut missed) = (count.filter(|_| !full).unwrap_or(0), 0);
     while left > 0 {
-        run.count()?;
+        run.count(node)?;
         left -= 1;
         let k = kinds.choose(&mut chance);
         let size = kinds.all[k].2;

@@ -6,13 +6,13 @@
 //! region. The second, or `width`, and the third, or `height`, are those of the
 //! barrier unless said. Along a selection the strip lies on the inner side of its
 //! offset, along a line half on each side. Strips go round outer corners in an
-//! arc, with `MITRE` in a point of at most four widths. They are clipped to the
+//! arc, with `Mitre` in a point of at most four widths. They are clipped to the
 //! region and leave out what was cut from it or stands on it. Of several
 //! branches each line has the next.
 
 use super::target::Target;
 use super::Arguments;
-use crate::derive::{Node, Places, Run};
+use crate::derive::{clear, Node, Places, Run};
 use crate::error::Failure;
 use crate::library;
 use crate::plane::{circle, difference, intersection, strip, stroke, union, Area, Corner};
@@ -46,7 +46,7 @@ pub(crate) fn sweep(
     let mut scope = run.scope(node, places);
     let mut arguments = Arguments::new(operation);
     let (target, offset) = Target::read(&mut arguments, &mut scope)?;
-    let mitre = arguments.flag(&mut scope, "MITRE")?;
+    let mitre = arguments.flag(&mut scope, "Mitre")?;
     let mut sizes = [None; 2];
     for (size, name) in sizes.iter_mut().zip(["width", "height"]) {
         *size = match arguments.next() {
@@ -63,12 +63,6 @@ pub(crate) fn sweep(
     arguments.done()?;
     let [width, height] = sizes;
     let corner = if mitre { Corner::Mitre } else { Corner::Round };
-    let mut taken: Vec<Area> = node.carved.clone();
-    taken.extend(node.standing.built.iter().cloned());
-    // Around the circle, not in it: no corner of the footprint is met.
-    let around = (std::f64::consts::PI / 36.0).cos();
-    let discs = node.standing.discs().iter();
-    taken.extend(discs.map(|disc| Area::new(circle(disc.at, disc.radius / around), Vec::new())));
 
     let offset = offset.unwrap_or(0.0);
     let lines = match target {
@@ -94,13 +88,7 @@ pub(crate) fn sweep(
             }
         };
         let inside = intersection(&band, std::slice::from_ref(&node.region.area));
-        // Only what may be met: a region can hold thousands of things.
-        let met: Vec<Area> = taken
-            .iter()
-            .filter(|area| inside.iter().any(|part| boxes_meet(part, area)))
-            .cloned()
-            .collect();
-        let mut found = difference(&inside, &met);
+        let mut found = difference(&inside, &met(node, &inside));
         found.retain(|area| area.size() > LEAST);
         if found.is_empty() {
             run.scene.skipped += 1;
@@ -111,16 +99,30 @@ pub(crate) fn sweep(
                 polygon: area.to_polygon(),
                 height: height.unwrap_or(profile.height),
             });
-            taken.push(area.clone());
             node.standing.built.push(area);
         }
     }
     run.suited(operation, before)
 }
 
-fn boxes_meet(a: &Area, b: &Area) -> bool {
-    let ((low, high), (from, to)) = (a.extent(), b.extent());
-    from.x <= high.x && to.x >= low.x && from.y <= high.y && to.y >= low.y
+/// What a strip may meet of all that a region holds, which can be thousands of
+/// things.
+fn met(node: &Node, strip: &[Area]) -> Vec<Area> {
+    // Around the circle, not in it: no corner of the footprint is met.
+    let around = (std::f64::consts::PI / 36.0).cos();
+    let mut met = Vec::new();
+    for part in strip {
+        let (low, high) = part.extent();
+        let patches = [&node.carved, &node.standing.built];
+        met.extend(patches.into_iter().flat_map(|p| p.near(low, high)).cloned());
+        for disc in node.standing.near(low, high) {
+            let radius = disc.radius / around;
+            if !clear(part, disc.at, radius) {
+                met.push(Area::new(circle(disc.at, radius), Vec::new()));
+            }
+        }
+    }
+    met
 }
 
 fn profile(run: &Run<'_>, branch: &Branch, places: &Places) -> Result<Profile, Failure> {

@@ -4,7 +4,7 @@
 //! edges", which is the orientation of a line, and "[-45, 45] for East", which
 //! is the direction an edge faces. Decided: an edge has the angle of the
 //! direction that it faces, counted from the region's own east; with the word
-//! `LINE` that of the line it lies on, from 0 to 180 degrees. Both ends of a
+//! `Line` that of the line it lies on, from 0 to 180 degrees. Both ends of a
 //! range belong to it.
 
 use std::f64::consts::{PI, TAU};

@@ -101,7 +101,7 @@ fn corners(scope: &Scope<'_>, numbers: &[i64]) -> Vec<Spot> {
 
 fn by_angle(scope: &mut Scope<'_>, arguments: &mut Arguments<'_>) -> Result<Selection, Failure> {
     let range = angles(scope, &arguments.need("a range of angles")?.value)?;
-    let line = arguments.flag(scope, "LINE")?;
+    let line = arguments.flag(scope, "Line")?;
     let frame = frame(scope, arguments)?;
     Ok(if line {
         angle::lying(scope.region, frame, range)
@@ -131,8 +131,8 @@ fn growing(scope: &mut Scope<'_>, mut arguments: Arguments<'_>) -> Result<Value,
         }
         _ => (false, vec![direction(scope, expr)?]),
     };
-    let leave = arguments.flag(scope, "LEAVE")?;
-    let grow_on = arguments.flag(scope, "REST")?;
+    let leave = arguments.flag(scope, "Leave")?;
+    let grow_on = arguments.flag(scope, "Rest")?;
     let frame = frame(scope, &mut arguments)?;
     let threshold = match arguments.next() {
         Some(argument) => {
@@ -180,13 +180,13 @@ fn cardinal(scope: &mut Scope<'_>, arguments: &mut Arguments<'_>) -> Result<Sele
         return Err(failure.hint("write WEST, NORTH, EAST or SOUTH"));
     };
     let frame = frame(scope, arguments)?;
-    let northern = arguments.flag(scope, "NORTHERN")?;
-    let split = arguments.flag(scope, "SPLIT")?;
+    let northern = arguments.flag(scope, "Northern")?;
+    let split = arguments.flag(scope, "Split")?;
     let ways = [
-        ("CORNERS", Way::Corners),
-        ("ANGLE", Way::Angle),
-        ("SECTOR", Way::Sector),
-        ("GROW", Way::Grow),
+        ("Corners", Way::Corners),
+        ("Angle", Way::Angle),
+        ("Sector", Way::Sector),
+        ("Grow", Way::Grow),
     ];
     let mut way = Way::Corners;
     for (word, named) in ways {
@@ -194,7 +194,7 @@ fn cardinal(scope: &mut Scope<'_>, arguments: &mut Arguments<'_>) -> Result<Sele
             way = named;
         }
     }
-    if arguments.flag(scope, "DOMINANT")? || northern || split {
+    if arguments.flag(scope, "Dominant")? || northern || split {
         way = Way::Dominant(match (northern, split) {
             (_, true) => Ties::Split,
             (true, false) => Ties::Northern,
@@ -271,9 +271,9 @@ pub(crate) fn range(value: &Value) -> Option<Option<[Number; 2]>> {
     }
 }
 
-/// The axes: the region's own, or with `COMPASS` those.
+/// The axes: the region's own, or with `Compass` those.
 fn frame(scope: &mut Scope<'_>, arguments: &mut Arguments<'_>) -> Result<Frame, Failure> {
-    let compass = arguments.flag(scope, "COMPASS")?;
+    let compass = arguments.flag(scope, "Compass")?;
     Ok(if compass {
         Frame::COMPASS
     } else {

@@ -11,11 +11,11 @@
 //! diagonals of the box cut instead. All four together are the outer boundary,
 //! each is a single line, and none is empty unless the diagonals cut.
 //!
-//! The other ways are `Cardinal(WEST, ANGLE)`, `Cardinal(WEST, SECTOR)`,
-//! `Cardinal(WEST, GROW)` and `Cardinal(WEST, DOMINANT)`. The last gives every
+//! The other ways are `Cardinal(WEST, Angle)`, `Cardinal(WEST, Sector)`,
+//! `Cardinal(WEST, Grow)` and `Cardinal(WEST, Dominant)`. The last gives every
 //! edge to the direction that it faces, edges at 45 degrees to west or east; with
-//! `NORTHERN` to north or south; with `SPLIT` half to each neighbour. Directions
-//! are the region's own; with `COMPASS` the compass's.
+//! `Northern` to north or south; with `Split` half to each neighbour. Directions
+//! are the region's own; with `Compass` the compass's.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 

@@ -1,4 +1,4 @@
-//! `Grow(WEST, 30)`, `Grow([WEST, 45, EAST], 30, LEAVE)`: selections that grow
+//! `Grow(WEST, 30)`, `Grow([WEST, 45, EAST], 30, Leave)`: selections that grow
 //! from where rays hit.
 //!
 //! Rays leave the region's centre of mass in each of the directions; the edge of
@@ -6,11 +6,11 @@
 //! grow to the neighbours of their edges, those first that turn least, while the
 //! turn is less than the threshold (45 degrees unless said).
 //!
-//! "What to do with unattached regions?" Decided: `REST` (the default with
+//! "What to do with unattached regions?" Decided: `Rest` (the default with
 //! several directions) lets all go on growing, least turns first, until every
 //! edge is attached, which is the notes' "that containing the more divergent
 //! value continues" too, since of two that stand at an edge the one that turns
-//! less into it has it; `LEAVE` (the default with one) leaves them. Where two
+//! less into it has it; `Leave` (the default with one) leaves them. Where two
 //! turn equally each has the half that is nearer to it: symmetric regions grow
 //! symmetric selections. A ray into a vertex begins at both edges.
 

@@ -15,7 +15,7 @@ const NEAR: f64 = 1e-6;
 pub(crate) struct Heritage<'r> {
     region: &'r Region,
     /// The rule, for the marks of what is new.
-    rule: &'r str,
+    rule: &'static str,
     near: f64,
     /// The region's edges with their directions, ring by ring.
     edges: Vec<Source<'r>>,
@@ -29,7 +29,7 @@ struct Source<'r> {
 }
 
 impl<'r> Heritage<'r> {
-    pub(crate) fn new(region: &'r Region, rule: &'r str) -> Self {
+    pub(crate) fn new(region: &'r Region, rule: &'static str) -> Self {
         let (low, high) = region.area.extent();
         let edges = (0..region.rings()).flat_map(|ring| region.edges(ring));
         let source = |(p, q, edge): (Coord<f64>, Coord<f64>, &'r Edge)| Source {
@@ -65,7 +65,7 @@ impl<'r> Heritage<'r> {
     /// A mark of this rule.
     pub(crate) fn mark(&self, role: Role) -> Mark {
         Mark {
-            rule: self.rule.to_owned(),
+            rule: self.rule.into(),
             depth: self.region.depth,
             role,
         }

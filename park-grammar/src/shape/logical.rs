@@ -48,9 +48,12 @@ impl Region {
     }
 
     /// The corners between sides; corner k is where side k begins, or, in a
-    /// mirrored region, where it ends.
+    /// mirrored region, where it ends. A side that has no edges begins where the
+    /// next one does: corner 0 of a cell at a centre without a size.
     pub(crate) fn corner(&self, index: usize) -> Option<Coord<f64>> {
-        let side = self.logical().into_iter().find(|s| s.index == index)?;
+        let sides = self.logical();
+        let there = |k: usize| sides.iter().find(|s| s.index == k);
+        let side = (index..self.sides).find_map(there)?;
         if self.local.mirrored() {
             side.line.last().copied()
         } else {

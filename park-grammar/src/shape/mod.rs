@@ -5,6 +5,8 @@ mod inherit;
 mod local;
 mod logical;
 
+use std::borrow::Cow;
+
 use geo_types::{Coord, Polygon};
 
 pub(crate) use inherit::Heritage;
@@ -36,7 +38,7 @@ pub enum Role {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Mark {
     /// The operation, such as `Peel`.
-    pub rule: String,
+    pub rule: Cow<'static, str>,
     /// How deep in the derivation it was done, the park itself at 0.
     pub depth: usize,
     /// What the edge is to it.

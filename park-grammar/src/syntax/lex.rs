@@ -5,7 +5,7 @@ use winnow::ascii::{digit1, multispace1};
 use winnow::combinator::{alt, delimited, opt, repeat};
 use winnow::error::ContextError;
 use winnow::prelude::*;
-use winnow::stream::LocatingSlice;
+use winnow::stream::{LocatingSlice, Stream};
 use winnow::token::{any, one_of, take_until, take_while};
 
 use super::ast::{Span, Unit};
@@ -86,6 +86,14 @@ pub(super) fn tokens(text: &str, file: usize, found: &mut Vec<Diagnostic>) -> Ve
                 format!("this {what} does not end"),
             )),
             Piece::Huge => found.push(Diagnostic::new(place, "this number is too large")),
+            Piece::Strange('#') => {
+                // A comment as other languages have it: one fault, not one for
+                // each of its words.
+                found.push(strange('#', place));
+                let rest: &str = input.as_ref();
+                let line = rest.find('\n').unwrap_or(rest.len());
+                input.next_slice(line);
+            }
             Piece::Strange(c) => found.push(strange(c, place)),
         }
     }
@@ -243,11 +251,13 @@ mod tests {
     #[test]
     fn strange_text_is_passed_over() {
         let mut found = Vec::new();
-        let tokens = tokens("a \u{2192} b \"open", 0, &mut found);
+        let tokens = super::tokens("a \u{2192} b \"open", 0, &mut found);
         assert_eq!(found.len(), 2);
         assert_eq!((found[0].span.start, found[0].span.end), (2, 5));
         assert!(found[0].hint.as_deref().is_some_and(|h| h.contains("->")));
         assert_eq!(tokens.len(), 3);
+        let tokens = super::tokens("a # b; c.\nd", 0, &mut found);
+        assert_eq!((found.len(), tokens.len()), (3, 3));
     }
 
     #[test]

@@ -32,12 +32,18 @@ pub(super) fn number(value: f64, decimals: usize) -> String {
 
 /// Appends a point, in the coordinates of the frame's source.
 pub(super) fn push_position(text: &mut String, frame: &Frame, c: Coord<f64>) {
+    push_finer(text, frame, c, 0);
+}
+
+/// Appends a point with so many more decimals than a plan needs.
+pub(super) fn push_finer(text: &mut String, frame: &Frame, c: Coord<f64>, more: usize) {
     let source = frame.to_source(c);
-    let decimals = if frame.is_degrees() {
-        DEGREE_DECIMALS
-    } else {
-        METRE_DECIMALS
-    };
+    let decimals = more
+        + if frame.is_degrees() {
+            DEGREE_DECIMALS
+        } else {
+            METRE_DECIMALS
+        };
     let _ = write!(
         text,
         "[{},{}]",

@@ -12,6 +12,7 @@ pub(crate) mod geojson;
 pub mod html;
 pub mod layout_geojson;
 pub mod network_geojson;
+pub mod park_geojson;
 #[cfg(feature = "png")]
 pub mod png;
 pub mod streamlines_geojson;

@@ -16,6 +16,7 @@ mod font;
 mod map;
 mod network;
 mod palette;
+mod park;
 mod picture;
 mod sheet;
 mod streamlines;
@@ -32,6 +33,7 @@ pub use field::field_svg;
 pub use field_sheet::{field_sheet_svg, FieldPanel};
 pub use floorplan::floorplan_svg;
 pub use network::network_svg;
+pub use park::park_svg;
 pub use streamlines::{streamlines_svg, Paint, StreamlineSvgOptions};
 pub use traffic::traffic_svg;
 

@@ -181,6 +181,17 @@ pub struct Block {
     pub lineage: Lineage,
 }
 
+/// The design of a park: what stands on one of the tiles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ParkDesign {
+    /// Id of the [`Tile`], whose land the pieces of the scene tile.
+    pub tile: u64,
+    /// The grammar that it was derived from.
+    pub grammar: String,
+    /// The park, in local metres.
+    pub scene: park_grammar::Scene,
+}
+
 /// One plan of one site.
 ///
 /// # Examples
@@ -201,6 +212,8 @@ pub struct Layout {
     pub junctions: Vec<Junction>,
     /// The land between streets.
     pub blocks: Vec<Block>,
+    /// Designs of parks among the tiles; a park without one is open land.
+    pub parks: Vec<ParkDesign>,
     /// The site, local metres.
     pub site: MultiPolygon<f64>,
     /// Seed that the plan was made with.
@@ -214,6 +227,7 @@ impl Default for Layout {
             streets: Vec::new(),
             junctions: Vec::new(),
             blocks: Vec::new(),
+            parks: Vec::new(),
             site: MultiPolygon::new(Vec::new()),
             seed: 0,
         }

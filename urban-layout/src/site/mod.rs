@@ -138,6 +138,17 @@ impl Site {
         read::read(text, units, "building")
     }
 
+    /// Reads a park from GeoJSON text: as [`Site::from_geojson`], but that
+    /// features of the kind `park` are the land if there are any, and the site
+    /// around them is left out.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Site::from_geojson`].
+    pub fn park_from_geojson(text: &str, units: Units) -> Result<Self> {
+        read::read(text, units, "park")
+    }
+
     /// A site without anything on it, from a polygon in metres of any
     /// projection.
     ///

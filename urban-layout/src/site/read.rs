@@ -44,13 +44,15 @@ pub(crate) fn read(text: &str, units: Units, wanted: &str) -> Result<Site> {
         raw.extend(feature.polygons()?);
     }
     let (parts, frame) = parts(&raw, degrees, &mut warnings)?;
-    // Of a building nobody expects parcels.
+    // Of a building or park nobody expects parcels.
     warnings.retain(|w| wanted == "site" || w.kind != WarningKind::TinySite);
 
     let mut given = Given::new(frame, &parts);
     let site: Vec<usize> = land.iter().map(|feature| feature.index).collect();
     for feature in &document.features {
-        if !site.contains(&feature.index) {
+        // Of a park the site around it is no part.
+        let around = feature.kind() == Some("site");
+        if !site.contains(&feature.index) && !around {
             given.take(feature, &mut warnings)?;
         }
     }
@@ -142,11 +144,16 @@ fn land<'a>(
     let no_site = |reason: String| Err(SiteError::NoSite { reason }.into());
     let known =
         |kind: &str| matches!(kind, "road" | "street") || ElementKind::parse(kind).is_some();
-    let named: Vec<&RawFeature> = document
-        .features
-        .iter()
-        .filter(|feature| matches!(feature.kind(), Some(kind) if kind == "site" || kind == wanted))
-        .collect();
+    let called = |kinds: &[&str]| -> Vec<&RawFeature> {
+        let all = document.features.iter();
+        all.filter(|feature| matches!(feature.kind(), Some(kind) if kinds.contains(&kind)))
+            .collect()
+    };
+    // A building is land like the site; a park may lie in one.
+    let named = match called(&[wanted]) {
+        parks if wanted == "park" && !parks.is_empty() => parks,
+        _ => called(&["site", wanted]),
+    };
     if !named.is_empty() {
         return Ok(named);
     }

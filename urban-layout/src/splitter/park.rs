@@ -5,7 +5,11 @@ use crate::layout::Lineage;
 use crate::region::Region;
 use crate::splitter::{Action, FaceUse, Fill, FillFace, Proposal, Scene, Splitter};
 
-/// Fills a region with a plain park. Never declines.
+/// Fills a region with a park. Never declines.
+///
+/// The park gets its design, like those of templates, when the plan is assembled
+/// and its outline does not change any more: see
+/// [`ParkChoice`](crate::park::ParkChoice).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ParkFill;
 

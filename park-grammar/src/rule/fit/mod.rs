@@ -27,8 +27,8 @@ mod optimised;
 
 use geo_types::Coord;
 
-use super::Arguments;
-use crate::derive::{Scope, Value};
+use super::{mode, Arguments};
+use crate::derive::Scope;
 use crate::error::Failure;
 use crate::index::{self, Thresholds};
 use crate::plane::{
@@ -36,7 +36,7 @@ use crate::plane::{
     quad_angles, right, unit, Area,
 };
 use crate::shape::Region;
-use crate::syntax::ast::{Expr, Span};
+use crate::syntax::ast::{Expr, ExprKind, Span};
 
 /// Corners at (0, 0), (0, 1), (1, 1) and (1, 0).
 pub(crate) type Quad = [Coord<f64>; 4];
@@ -105,10 +105,7 @@ impl Fitting {
         scope: &mut Scope<'_>,
         default: Fit,
     ) -> Result<Self, Failure> {
-        let fit = match arguments.named("fit") {
-            Some(expr) => word(&scope.value(expr)?, expr.span)?,
-            None => default,
-        };
+        let fit = arguments.mode(scope, "fit", &WORDS)?.unwrap_or(default);
         let mut of = [Fit::Oriented, Fit::Inscribed];
         if let Some(expr) = arguments.named("of") {
             of = pair(scope, expr)?;
@@ -345,23 +342,11 @@ pub(crate) fn cut(region: &Region, quad: Quad) -> Fitted {
     }
 }
 
-fn word(value: &Value, span: Span) -> Result<Fit, Failure> {
-    let wanted = "a way to fit: own, oriented, bounding, axis, inscribed, optimised, indexed, \
-                  meeting or blend";
-    let Value::Word(text) = value else {
-        return Err(value.wrong(span, wanted));
-    };
-    let found = WORDS.iter().find(|(word, _)| word == text);
-    found
-        .map(|(_, fit)| *fit)
-        .ok_or_else(|| value.wrong(span, wanted))
-}
-
 /// The two fits that are blended.
 fn pair(scope: &mut Scope<'_>, expr: &Expr) -> Result<[Fit; 2], Failure> {
-    if let Value::List(items) = scope.value(expr)? {
+    if let ExprKind::List(items) = &expr.kind {
         if let [a, b] = items.as_slice() {
-            let pair = [word(a, expr.span)?, word(b, expr.span)?];
+            let pair = [mode(scope, a, "of", &WORDS)?, mode(scope, b, "of", &WORDS)?];
             if !pair.contains(&Fit::Blend) {
                 return Ok(pair);
             }

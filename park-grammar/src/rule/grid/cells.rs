@@ -2,11 +2,12 @@
 
 use super::symmetry::{number_sides, Symmetry};
 use super::*;
+use crate::derive::Watch;
 use crate::plane::{lerp, quad_angles, quad_area, quad_coordinates, quad_is_convex, quad_point};
 use crate::shape::Cell;
 
 /// Points this near to a line, as a share of the quad's size, are on it.
-const ON: f64 = 1e-7;
+pub(super) const ON: f64 = 1e-7;
 
 /// A cell that fills less than this share of its quad has been cut off by the
 /// region's edge, and not just by a centre.
@@ -17,22 +18,22 @@ const FULL: f64 = 0.85;
 pub(super) struct Lattice {
     pub(super) quad: Quad,
     /// Between columns and between rows, each with the lower cells on its left.
-    lines: [Vec<Line>; 2],
+    pub(super) lines: [Vec<Line>; 2],
     /// Where the grid begins and ends along x and y, in the same way.
     ends: [[Line; 2]; 2],
     /// Whether the grid ends before its quad does, along x and along y.
     short: [bool; 2],
     /// Half the width of a path.
-    half: f64,
+    pub(super) half: f64,
     /// Size of the quad.
-    size: f64,
+    pub(super) size: f64,
 }
 
 /// A cell, or one of the parts that a region of any shape leaves of it.
 #[derive(Debug)]
 pub(super) struct Piece {
     pub(super) area: Area,
-    cell: Cell,
+    pub(super) cell: Cell,
 }
 
 impl Lattice {
@@ -91,16 +92,22 @@ impl Lattice {
         (within, rest)
     }
 
+    /// The lines that meet inside the areas, and where.
+    pub(super) fn meetings(&self, inside: &[Area]) -> Vec<(&Line, &Line, Coord<f64>)> {
+        let mut found = Vec::new();
+        for column in &self.lines[0] {
+            let crossings = self.lines[1].iter();
+            let crossings = crossings.filter_map(|row| Some((column, row, column.meets(row)?)));
+            found.extend(crossings.filter(|(_, _, at)| inside.iter().any(|a| a.contains(*at))));
+        }
+        found
+    }
+
     /// The shape at each crossing inside the areas; whole ones, which may go on
     /// beyond and overlap.
     pub(super) fn whole_centres(&self, inside: &[Area], shape: Primitive) -> Vec<Area> {
-        let mut found = Vec::new();
-        for column in &self.lines[0] {
-            let crossings = self.lines[1].iter().filter_map(|row| column.meets(row));
-            let within = crossings.filter(|&at| inside.iter().any(|area| area.contains(at)));
-            found.extend(within.map(|at| self.placed(shape, at)));
-        }
-        found
+        let meetings = self.meetings(inside).into_iter();
+        meetings.map(|(_, _, at)| self.placed(shape, at)).collect()
     }
 
     /// A shape whose upright is that of the grid, mirrored with it.
@@ -114,48 +121,35 @@ impl Lattice {
         Area::new(ring.collect(), Vec::new())
     }
 
-    /// All that paths do not cover: cells and centres that go on beyond the areas
-    /// and overlap each other. Cells as the areas' edges and centres cut them have
-    /// those edges up to rounding, which would leave paths as thin as a hair along
-    /// them.
-    pub(super) fn beside(&self, inside: &[Area], centres: &[Area]) -> Vec<Area> {
-        let points: Vec<Coord<f64>> = inside
-            .iter()
-            .flat_map(|a| a.outer.iter().copied())
-            .collect();
-        let (low, high) = crate::plane::extent(&points);
-        let more = (high - low) * 0.1
-            + Coord {
-                x: self.half,
-                y: self.half,
-            };
-        let wide = box_along(&[low - more, high + more], Coord { x: 1.0, y: 0.0 });
-        let wide = Area::new(wide.to_vec(), Vec::new());
-        let mut found: Vec<Area> = self
-            .cells(&[wide])
-            .into_iter()
-            .map(|piece| piece.area)
-            .collect();
-        found.extend_from_slice(centres);
-        found
+    /// The cells of areas.
+    pub(super) fn cells(&self, watch: &Watch<'_>, inside: &[Area]) -> Result<Vec<Piece>, Failure> {
+        self.some_cells(watch, inside, |_| true)
     }
 
-    /// The cells of areas.
-    pub(super) fn cells(&self, inside: &[Area]) -> Vec<Piece> {
+    /// The cells of areas for which `wanted` holds, by column and row.
+    pub(super) fn some_cells(
+        &self,
+        watch: &Watch<'_>,
+        inside: &[Area],
+        wanted: impl Fn([usize; 2]) -> bool,
+    ) -> Result<Vec<Piece>, Failure> {
         let of = [self.lines[0].len() + 1, self.lines[1].len() + 1];
+        let rows_of = |column: usize| (0..of[1]).map(move |row| [column, row]);
         let mut found = Vec::new();
-        let columns = strips(inside.to_vec(), &self.lines[0], self.half);
+        let any: Vec<bool> = (0..of[0])
+            .map(|column| rows_of(column).any(&wanted))
+            .collect();
+        let columns = strips(watch, inside.to_vec(), &self.lines[0], self.half, &any)?;
         for (column, strip) in columns.into_iter().enumerate() {
-            let rows = strips(strip, &self.lines[1], self.half);
+            let these: Vec<bool> = rows_of(column).map(&wanted).collect();
+            let rows = strips(watch, strip, &self.lines[1], self.half, &these)?;
             for (row, areas) in rows.into_iter().enumerate() {
-                let cell = Cell {
-                    at: [column, row],
-                    of,
-                };
+                let at = [column, row];
+                let cell = Cell { at, of };
                 found.extend(areas.into_iter().map(|area| Piece { area, cell }));
             }
         }
-        found
+        Ok(found)
     }
 
     /// A cell as a region.
@@ -163,13 +157,14 @@ impl Lattice {
         &self,
         heritage: &Heritage<'_>,
         piece: Piece,
-        centres: &[Area],
+        centres: &Centres<'_>,
         symmetry: &Symmetry,
     ) -> Region {
         let Piece { area, cell } = piece;
         let local = symmetry.local(self.local(&area, cell), cell);
         let around: Vec<(&Line, f64)> = self.around(cell).into_iter().flatten().collect();
         let on = ON * self.size;
+        let centres: Vec<&Area> = centres.within(&area, on).collect();
         let role = |a: Coord<f64>, b: Coord<f64>| {
             let along = around
                 .iter()
@@ -177,7 +172,7 @@ impl Lattice {
             let middle = lerp(a, b, 0.5);
             Some(if along && self.half > 0.0 {
                 Role::Path
-            } else if !along && centres.iter().any(|c| c.nearest(middle).1 < on) {
+            } else if !along && centres.iter().any(|c| !c.keeps_away(middle, on)) {
                 Role::Centre
             } else {
                 Role::Seam
@@ -290,16 +285,32 @@ fn reached(quad: &Quad, area: &Area) -> Option<Quad> {
 }
 
 /// Areas between lines that have what comes first on their left; halved again and
-/// again, so that each is cut by few lines.
-fn strips(areas: Vec<Area>, lines: &[Line], half: f64) -> Vec<Vec<Area>> {
+/// again, so that each is cut by few lines. What is not wanted is left empty.
+fn strips(
+    watch: &Watch<'_>,
+    areas: Vec<Area>,
+    lines: &[Line],
+    half: f64,
+    wanted: &[bool],
+) -> Result<Vec<Vec<Area>>, Failure> {
+    watch.tick()?;
+    if !wanted.contains(&true) {
+        return Ok(vec![Vec::new(); wanted.len()]);
+    }
     if lines.is_empty() {
-        return vec![areas];
+        return Ok(vec![areas]);
     }
     let middle = lines.len() / 2;
     let [before, after] = split(&areas, &lines[middle], half);
-    let mut found = strips(before, &lines[..middle], half);
-    found.extend(strips(after, &lines[middle + 1..], half));
-    found
+    let mut found = strips(watch, before, &lines[..middle], half, &wanted[..=middle])?;
+    found.extend(strips(
+        watch,
+        after,
+        &lines[middle + 1..],
+        half,
+        &wanted[middle + 1..],
+    )?);
+    Ok(found)
 }
 
 /// Whole centres as far as they lie inside the areas and in none before.
@@ -330,8 +341,7 @@ pub(super) fn clipped_centres(whole: &[Area], inside: &[Area]) -> Vec<Area> {
 
 /// What whole centres leave of cells. Centres that end with the region would leave
 /// hairs along its edge.
-pub(super) fn without(cells: Vec<Piece>, centres: &[Area]) -> Vec<Piece> {
-    let centres = Centres::new(centres);
+pub(super) fn without(cells: Vec<Piece>, centres: &Centres<'_>) -> Vec<Piece> {
     let mut found = Vec::with_capacity(cells.len());
     for Piece { area, cell } in cells {
         let near: Vec<Area> = centres.near(&area).cloned().collect();
@@ -346,14 +356,14 @@ pub(super) fn without(cells: Vec<Piece>, centres: &[Area]) -> Vec<Piece> {
 }
 
 /// Centres, sorted so that those near a cell are soon found.
-struct Centres<'c> {
+pub(super) struct Centres<'c> {
     /// With its extent, by where it begins along x.
     sorted: Vec<(Coord<f64>, Coord<f64>, &'c Area)>,
     widest: f64,
 }
 
 impl<'c> Centres<'c> {
-    fn new(centres: &'c [Area]) -> Self {
+    pub(super) fn new(centres: &'c [Area]) -> Self {
         let mut sorted: Vec<_> = centres
             .iter()
             .map(|area| {
@@ -371,7 +381,14 @@ impl<'c> Centres<'c> {
 
     /// Those whose extents meet that of an area, in one order for all areas.
     fn near<'a>(&'a self, area: &Area) -> impl Iterator<Item = &'c Area> + 'a {
+        self.within(area, 0.0)
+    }
+
+    /// Those whose extents come so near to that of an area.
+    fn within<'a>(&'a self, area: &Area, far: f64) -> impl Iterator<Item = &'c Area> + 'a {
         let (low, high) = area.extent();
+        let far = Coord { x: far, y: far };
+        let (low, high) = (low - far, high + far);
         let first = self
             .sorted
             .partition_point(|(from, _, _)| from.x < low.x - self.widest);

@@ -24,8 +24,10 @@
 //! difference of the region and all else, so that nothing is lost.
 //!
 //! A centre is the shape that the third block begins with, at each crossing of
-//! lines inside the region, as far as it lies in the region. Without a shape
-//! crossings are part of the paths.
+//! lines inside the region, as far as it lies in the region. A third block that
+//! begins with no shape is done on the crossings themselves: the quads that both
+//! paths cover, cut out of the paths. Without a third block, or with an empty one,
+//! crossings are part of the paths, the notes' "normal regular crossroads".
 //!
 //! How cells that are mirror images stand to each other is the matter of
 //! [`symmetry`].
@@ -38,6 +40,7 @@
 //! it; concave regions need a boolean for each cut that meets a concave part.
 
 mod cells;
+mod paths;
 mod sizes;
 mod symmetry;
 
@@ -51,7 +54,7 @@ use crate::plane::{
 };
 use crate::shape::{Heritage, Local, Region, Role};
 
-use cells::Lattice;
+use cells::{Centres, Lattice};
 use sizes::{Cut, Dimension, Laying};
 use symmetry::Symmetry;
 
@@ -71,7 +74,7 @@ pub(crate) fn grid(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let mut arguments = Arguments::new(ask.operation);
     let exact = arguments.flag(scope, "Exact")?;
     let apart = arguments.flag(scope, "Apart")?;
-    let width = path_width(&mut arguments, scope, ask.path_width)?;
+    let width = super::path_width(&mut arguments, scope, ask.path_width)?;
     let size = match arguments.named("size") {
         Some(expr) => positive(scope.metres(expr)?, expr.span, "size")?,
         None => SIZE,
@@ -114,14 +117,21 @@ pub(crate) fn grid(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     };
     let shape = ask.centre;
     let whole = shape.map_or_else(Vec::new, |shape| lattice.whole_centres(&inside, shape));
-    let centres = cells::clipped_centres(&whole, &inside);
-    let cells = lattice.cells(&inside);
-    let paths = if width > 0.0 {
-        difference(&inside, &lattice.beside(&inside, &whole))
+    let mut centres = cells::clipped_centres(&whole, &inside);
+    let watch = scope.watch();
+    let cells = lattice.cells(&watch, &inside)?;
+    let mut paths = if width > 0.0 {
+        lattice.paths(&watch, &inside, &cells, &whole)?
     } else {
         Vec::new()
     };
-    let mut cells = cells::without(cells, &whole);
+    if shape.is_none() && ask.centred {
+        let crossings = lattice.crossings(&inside, &paths);
+        centres = intersection(&crossings, &paths);
+        paths = difference(&paths, &crossings);
+    }
+    let near = Centres::new(&whole);
+    let mut cells = cells::without(cells, &near);
     let least = SLIVER * region.area.size();
     cells.retain(|cell| cell.area.size() > least);
     if cells.is_empty() {
@@ -130,10 +140,11 @@ pub(crate) fn grid(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     }
 
     let heritage = Heritage::new(region, "Grid");
-    let regions = cells
-        .into_iter()
-        .map(|cell| lattice.region(&heritage, cell, &whole, &symmetry))
-        .collect();
+    let mut regions = Vec::with_capacity(cells.len());
+    for cell in cells {
+        watch.tick()?;
+        regions.push(lattice.region(&heritage, cell, &near, &symmetry));
+    }
     let [along, up] = Local::new(lattice.quad).axes();
     let plain = |areas: Vec<Area>, role: Role| -> Vec<Region> {
         let piece = |area| piece(&heritage, area, [along, up], role);
@@ -162,25 +173,6 @@ pub(crate) fn piece(
     let mut region = heritage.piece(area, Local::new(corners), |_, _| Some(role));
     crate::index::by_local(&mut region);
     region
-}
-
-/// The argument `width`, where the grammar wants paths at all.
-fn path_width(
-    arguments: &mut Arguments<'_>,
-    scope: &mut crate::derive::Scope<'_>,
-    default: f64,
-) -> Result<f64, Failure> {
-    match arguments.named("width") {
-        Some(expr) => {
-            let width = scope.metres(expr)?;
-            if width < 0.0 {
-                return Err(Failure::fault(expr.span, "a width is 0 or more"));
-            }
-            // Empty braces say that there are none, however wide.
-            Ok(if default > 0.0 { width } else { 0.0 })
-        }
-        None => Ok(default),
-    }
 }
 
 fn positive(value: f64, span: crate::syntax::ast::Span, what: &str) -> Result<f64, Failure> {

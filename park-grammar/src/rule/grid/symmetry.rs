@@ -27,11 +27,25 @@
 //! The same for rows. A dimension of one cell is not divided, and so has nothing to
 //! mirror: it keeps the coordinates of the region.
 
-use crate::derive::{Scope, Value};
+use crate::derive::Scope;
 use crate::error::Failure;
 use crate::rule::Arguments;
 use crate::shape::{Cell, Local, Reach, Region};
-use crate::syntax::ast::Expr;
+
+/// What the words of `middle =` mean.
+const MIDDLES: [(&str, Middle); 4] = [
+    ("centre", Middle::Centre),
+    ("left", Middle::Left),
+    ("right", Middle::Right),
+    ("local", Middle::Local),
+];
+
+/// What the words of `symmetry =` mean.
+const INNER: [(&str, Inner); 3] = [
+    ("mirror", Inner::Mirror),
+    ("pair", Inner::Pair),
+    ("extended", Inner::Extended),
+];
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Middle {
@@ -62,32 +76,12 @@ impl Symmetry {
         arguments: &mut Arguments<'_>,
         scope: &mut Scope<'_>,
     ) -> Result<Self, Failure> {
-        let mut middle = Middle::Centre;
-        if let Some(expr) = arguments.named("middle") {
-            middle = match word(scope, expr)?.as_deref() {
-                Some("centre" | "CENTRE") => Middle::Centre,
-                Some("left") => Middle::Left,
-                Some("right") => Middle::Right,
-                Some("local") => Middle::Local,
-                _ => {
-                    let error = "middle is centre, left, right or local";
-                    return Err(Failure::fault(expr.span, error));
-                }
-            };
-        }
-        let mut inner = Inner::Mirror;
-        if let Some(expr) = arguments.named("symmetry") {
-            inner = match word(scope, expr)?.as_deref() {
-                Some("mirror") => Inner::Mirror,
-                Some("pair") => Inner::Pair,
-                Some("extended") => Inner::Extended,
-                _ => {
-                    let error = "symmetry is mirror, pair or extended";
-                    return Err(Failure::fault(expr.span, error));
-                }
-            };
-        }
-        Ok(Self { middle, inner })
+        let middle = arguments.mode(scope, "middle", &MIDDLES)?;
+        let inner = arguments.mode(scope, "symmetry", &INNER)?;
+        Ok(Self {
+            middle: middle.unwrap_or_default(),
+            inner: inner.unwrap_or_default(),
+        })
     }
 
     /// Whether a cell is seen from the other end along one axis, and which
@@ -140,13 +134,6 @@ pub(super) fn number_sides(region: &mut Region) {
             other => other,
         });
     }
-}
-
-fn word(scope: &mut Scope<'_>, expr: &Expr) -> Result<Option<String>, Failure> {
-    Ok(match scope.value(expr)? {
-        Value::Word(word) => Some(word),
-        _ => None,
-    })
 }
 
 #[cfg(test)]

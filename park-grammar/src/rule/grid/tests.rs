@@ -3,6 +3,7 @@
 use super::cells::without;
 use super::sizes::Cuts;
 use super::*;
+use crate::derive::{DeriveOptions, Limits, Watch};
 use crate::select::named;
 use crate::shape::Cell;
 use geo_types::coord;
@@ -49,9 +50,14 @@ fn cells(of: [usize; 2]) -> Vec<Region> {
     assert_eq!(centres.len(), (of[0] - 1) * (of[1] - 1));
     let heritage = Heritage::new(&region, "Grid");
     let symmetry = Symmetry::default();
-    without(lattice.cells(&inside), &centres)
+    let options = DeriveOptions::default();
+    let limits = Limits::new(&options, &|_| true);
+    let watch = Watch::new(&limits, &"Region".into());
+    let near = Centres::new(&centres);
+    let all = lattice.cells(&watch, &inside).expect("time enough");
+    without(all, &near)
         .into_iter()
-        .map(|piece| lattice.region(&heritage, piece, &centres, &symmetry))
+        .map(|piece| lattice.region(&heritage, piece, &near, &symmetry))
         .collect()
 }
 

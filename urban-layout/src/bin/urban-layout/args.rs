@@ -7,6 +7,7 @@ use streamline::{CriteriaOptions, Criterion, Ends};
 use urban_layout::design::NetworkSpec;
 use urban_layout::field::FieldOptions;
 use urban_layout::io::svg::Paint;
+use urban_layout::park::ParkChoice;
 use urban_layout::site::Units;
 use urban_layout::splitter::NetworkOptions;
 use urban_layout::streamlines::StreamlineOptions;
@@ -22,7 +23,7 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
-    /// Lay out a site: writes layout.geojson, layout.svg and metrics.json.
+    /// Lay out a site: writes layout.geojson, layout.svg, metrics.json and parks.geojson.
     Generate(Generate),
     /// Prove a layout against its site; exit status 3 if a law fails.
     Check(Check),
@@ -34,6 +35,8 @@ pub(crate) enum Verb {
     Network(NetworkJob),
     /// Plan the floors of a building, rooms and corridors: writes floorplan.svg, floorplan.geojson and floorplan.json.
     Floorplan(FloorplanJob),
+    /// Derive a park from a grammar: writes park.svg and park.geojson.
+    Park(ParkJob),
 }
 
 #[derive(Debug, Args)]
@@ -82,6 +85,10 @@ pub(crate) struct Generate {
     /// Leave the network as the splits made it.
     #[arg(long)]
     pub(crate) no_optimize: bool,
+    /// How the parks that the plan makes are designed: auto, none, a grammar of the
+    /// library or a grammar's file.
+    #[arg(long, default_value = "auto", value_name = "NAME|FILE")]
+    pub(crate) park_grammar: String,
     /// Also draw layout.png.
     #[arg(long)]
     pub(crate) png: bool,
@@ -218,6 +225,32 @@ pub(crate) struct NetworkJob {
     pub(crate) common: Common,
 }
 
+#[derive(Debug, Args)]
+pub(crate) struct ParkJob {
+    /// The park's outline, a GeoJSON file; a park for each of its parts.
+    pub(crate) polygon: PathBuf,
+    /// Folder for the results; made if it is not there.
+    #[arg(long)]
+    pub(crate) out: PathBuf,
+    /// The grammar: a file, or the name of one of the library, such as simple_square.
+    #[arg(long, value_name = "FILE|NAME")]
+    pub(crate) grammar: String,
+    /// Seed of all random choices.
+    #[arg(long, default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// Gives a parameter of the grammar another value; may be repeated.
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub(crate) param: Vec<String>,
+    /// Also write the model park.glb, glTF 2.0.
+    #[arg(long)]
+    pub(crate) gltf: bool,
+    /// Also draw park.png.
+    #[arg(long)]
+    pub(crate) png: bool,
+    #[command(flatten)]
+    pub(crate) common: Common,
+}
+
 /// How a field is designed.
 #[derive(Debug, Args)]
 pub(crate) struct Design {
@@ -345,6 +378,12 @@ impl Common {
         let text = std::fs::read_to_string(path).map_err(|e| Error::reading(path, e))?;
         Site::building_from_geojson(&text, self.units.into())
     }
+
+    /// The land of a file that is to be a park.
+    pub(crate) fn read_park(&self, path: &Path) -> Result<Site> {
+        let text = std::fs::read_to_string(path).map_err(|e| Error::reading(path, e))?;
+        Site::park_from_geojson(&text, self.units.into())
+    }
 }
 
 impl StreamlineJob {
@@ -392,6 +431,11 @@ impl Generate {
             temperature: self.temperature,
             optimize: !self.no_optimize,
             network: self.network()?,
+            parks: match self.park_grammar.as_str() {
+                "auto" => ParkChoice::Fitting,
+                "none" => ParkChoice::Plain,
+                word => ParkChoice::Grammar(Box::new(urban_layout::park::grammar(word)?)),
+            },
             threads: self.threads,
             ..PlanOptions::default()
         })

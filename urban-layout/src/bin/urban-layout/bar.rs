@@ -41,3 +41,38 @@ impl Drop for Bar {
         }
     }
 }
+
+/// Counts operations of a derivation, of which nobody knows how many there will
+/// be; on a terminal only.
+#[derive(Debug)]
+pub(crate) struct Counter(Option<ProgressBar>);
+
+impl Counter {
+    pub(crate) fn new(word: &'static str) -> Self {
+        if !std::io::stderr().is_terminal() {
+            return Self(None);
+        }
+        let bar = ProgressBar::new_spinner();
+        if let Ok(style) = ProgressStyle::with_template("{msg:>12} {spinner} {pos}  {elapsed}") {
+            bar.set_style(style);
+        }
+        bar.set_message(word);
+        Self(Some(bar))
+    }
+
+    /// Tells how many have been done; whether to go on.
+    pub(crate) fn report(&mut self, done: usize) -> bool {
+        if let Some(bar) = &self.0 {
+            bar.set_position(done as u64);
+        }
+        true
+    }
+}
+
+impl Drop for Counter {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.0 {
+            bar.finish_and_clear();
+        }
+    }
+}

@@ -100,6 +100,9 @@ fn files_of(
         ),
         (folder.join("metrics.json"), (json + "\n").into_bytes()),
     ];
+    // Even without a park: one that lies there from before is of another plan.
+    let parks = io::park_geojson::parks_to_geojson(&plan.layout, &site.frame);
+    files.push((folder.join("parks.geojson"), parks.into_bytes()));
     if job.png {
         files.push((folder.join("layout.png"), super::png(&svg, "layout.svg")?));
     }

@@ -7,6 +7,7 @@ mod field;
 mod floorplan;
 mod generate;
 mod network;
+mod park;
 mod streamlines;
 
 use std::process::ExitCode;
@@ -33,6 +34,7 @@ fn main() -> ExitCode {
         Verb::Streamlines(job) => streamlines::run(job),
         Verb::Network(job) => network::run(job),
         Verb::Floorplan(job) => floorplan::run(job),
+        Verb::Park(job) => park::run(job),
     };
     match done {
         Ok(code) => ExitCode::from(code),

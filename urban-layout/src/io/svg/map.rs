@@ -1,6 +1,9 @@
 //! The plan itself: land, parcels by quality, streets, names.
 
+use std::collections::BTreeMap;
+
 use geo_types::{Coord, LineString};
+use park_grammar::picture::PictureOptions;
 
 use super::canvas::{Anchor, Canvas, Lettering, PathData, Transform};
 use super::font::{self, Pen};
@@ -43,6 +46,7 @@ pub(super) fn draw(
         context(canvas, site, to);
     }
     tiles(canvas, layout, to);
+    parks(canvas, layout, to);
     given_roads(canvas, layout, to);
     outlines(canvas, layout, to);
     centrelines(canvas, layout, to);
@@ -135,6 +139,37 @@ fn tiles(canvas: &mut Canvas, layout: &Layout, to: &Transform) {
         );
     }
     canvas.path(&landlocked.0, "fill=\"url(#barred)\"");
+}
+
+/// What is seen of parks: things that are this wide or more, sheet units.
+const SEEN: f64 = 14.0;
+
+/// The designs of parks.
+fn parks(canvas: &mut Canvas, layout: &Layout, to: &Transform) {
+    let mut defs: BTreeMap<String, String> = BTreeMap::new();
+    let mut bodies = String::new();
+    for (k, design) in layout.parks.iter().enumerate() {
+        let options = PictureOptions::default()
+            .with_origin(to.centre)
+            .with_line(7.0 / to.scale)
+            .with_least(0.5 * SEEN / to.scale)
+            .with_prefix(format!("park{k}"));
+        let drawing = design.scene.draw(&options);
+        defs.extend(drawing.defs);
+        bodies.push_str(&drawing.body);
+    }
+    if bodies.is_empty() {
+        return;
+    }
+    canvas.raw("<defs>\n");
+    defs.values().for_each(|definition| canvas.raw(definition));
+    canvas.raw("</defs>\n");
+    let Coord { x, y } = to.at;
+    // A drawing's unit is a centimetre.
+    canvas.raw(&format!(
+        "<g transform=\"translate({x:.0} {y:.0})scale({:.6})\">\n{bodies}</g>\n",
+        to.scale / 100.0
+    ));
 }
 
 /// Paving of a given road.
