@@ -8,7 +8,7 @@
 //! a quarter of a million cells has one that takes a second or two.
 
 use std::cell::Cell;
-use std::fmt::Display;
+use std::fmt::{self, Display};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -116,6 +116,14 @@ fn stopped(rule: &str, what: impl Display) -> Failure {
     })
 }
 
+impl fmt::Debug for Watch<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Watch")
+            .field("rule", &self.rule)
+            .finish_non_exhaustive()
+    }
+}
+
 /// What a long operation looks at on its way.
 #[derive(Clone)]
 pub(crate) struct Watch<'w> {
@@ -130,6 +138,11 @@ impl<'w> Watch<'w> {
             limits,
             rule: rule.clone(),
         }
+    }
+
+    /// To be called between steps that are long: an error when the time is up.
+    pub(crate) fn look(&self) -> Result<(), Failure> {
+        self.limits.look(&self.rule)
     }
 
     /// To be called each time round a loop that may be long: an error when the

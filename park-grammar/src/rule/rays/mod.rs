@@ -47,10 +47,10 @@ use geo_types::Coord;
 use super::grid::piece;
 use super::sites::{self, shape_at, sites};
 use super::{Arguments, Ask, Output, Partition, Primitive};
-use crate::derive::{outputs, Scope, Spot, Stream};
+use crate::derive::{outputs, Scope, Spot, Stream, Watch};
 use crate::error::Failure;
 use crate::plane::{
-    difference, dist, intersection, lerp, oriented_box, rest, sliced, union, weld, Area, Diagram,
+    difference, dist, intersection, lerp, oriented_box, rest, slice, union, weld, Area, Diagram,
     Site,
 };
 use crate::shape::{Heritage, Region, Role};
@@ -97,14 +97,21 @@ struct Asked {
 pub(crate) fn rays(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let asked = read(ask)?;
     let mut chance = ask.scope.chance.child();
-    divide(ask.scope.region, &asked, &mut chance).ok_or_else(|| {
+    let watch = ask.scope.watch();
+    let found = divided(ask.scope.region, &asked, &mut chance, Some(&watch))?;
+    found.ok_or_else(|| {
         let error = "the paths leave no room for regions";
         Failure::unfit(ask.operation.span, error)
     })
 }
 
 /// The walk-graph of a region.
-fn walks(region: &Region, asked: &Asked, chance: &mut Stream) -> Vec<Path> {
+fn walks(
+    region: &Region,
+    asked: &Asked,
+    chance: &mut Stream,
+    watch: Option<&Watch<'_>>,
+) -> Result<Vec<Path>, Failure> {
     let (area, size) = (&region.area, sites::size(region));
     let at: Vec<Coord<f64>> = asked.spots.iter().map(|spot| spot.at).collect();
     let links = asked.join.links(&at, || neighbours(region, &at), chance);
@@ -113,12 +120,19 @@ fn walks(region: &Region, asked: &Asked, chance: &mut Stream) -> Vec<Path> {
     let touching = touching(region, asked, &radii);
     let mut network = Network::new(area, size, 0.5 * asked.width, &at, &radii, &touching);
     network.narrow = asked.narrow;
-    network.join(&links);
+    network.watch = watch.cloned();
+    network.join(&links)?;
     if let Some(targets) = &asked.targets {
-        network.cast(targets, asked.rays, asked.hidden);
+        network.cast(targets, asked.rays, asked.hidden)?;
         network.exits();
     }
-    network.paths
+    Ok(network.paths)
+}
+
+/// Divides a region, however long it takes.
+#[cfg(test)]
+fn divide(region: &Region, asked: &Asked, chance: &mut Stream) -> Option<Partition> {
+    divided(region, asked, chance, None).ok().flatten()
 }
 
 /// Centres whose shapes share ground.
@@ -143,24 +157,32 @@ fn touching(region: &Region, asked: &Asked, radii: &[f64]) -> Vec<Link> {
 }
 
 /// Divides a region; `None` if nothing but paths would be left.
-fn divide(region: &Region, asked: &Asked, chance: &mut Stream) -> Option<Partition> {
+fn divided(
+    region: &Region,
+    asked: &Asked,
+    chance: &mut Stream,
+    watch: Option<&Watch<'_>>,
+) -> Result<Option<Partition>, Failure> {
+    let look = || watch.map_or(Ok(()), Watch::look);
     let (area, size) = (&region.area, sites::size(region));
     let at: Vec<Coord<f64>> = asked.spots.iter().map(|spot| spot.at).collect();
-    let paths = walks(region, asked, chance);
+    let paths = walks(region, asked, chance, watch)?;
     let mut lands: Vec<Option<Area>> = Vec::new();
     for (&at, shape) in at.iter().zip(&asked.shapes) {
+        look()?;
         let taken: Vec<Area> = lands.iter().flatten().cloned().collect();
         let whole = shape.map(|shape| shape_at(shape, at, &region.local));
         lands.push(whole.and_then(|whole| clipped(&whole, area, at, &taken)));
     }
     let cells = between(area, asked, &paths, &lands, size);
+    look()?;
     let least = asked.least.max(SLIVER * area.size());
     let mut pieces: Vec<Area> = cells.into_iter().filter(|a| a.size() > least).collect();
     let count = pieces.len();
     let centres = lands.iter().flatten().filter(|_| asked.output);
     pieces.extend(centres.cloned());
     if pieces.is_empty() {
-        return None;
+        return Ok(None);
     }
     let (mut pieces, walked) = rest(area, pieces);
     let centres = pieces.split_off(count);
@@ -185,13 +207,13 @@ fn divide(region: &Region, asked: &Asked, chance: &mut Stream) -> Option<Partiti
             .collect()
     };
     let regions = pieces.into_iter().map(|area| between.cell(area));
-    Some(Partition {
+    Ok(Some(Partition {
         outputs: vec![
             Output::lawns(regions.collect()),
             Output::paths(plain(walked, Role::Path)),
             Output::paths(plain(centres, Role::Centre)),
         ],
-    })
+    }))
 }
 
 /// What the paths and centres leave.
@@ -204,8 +226,12 @@ fn between(
 ) -> Vec<Area> {
     let mut taken: Vec<Area> = lands.iter().flatten().cloned().collect();
     if asked.width > 0.0 {
+        let covered = |centre: usize| {
+            let shape = asked.shapes[centre];
+            shape.is_some_and(|shape| shape.inner_radius() >= 0.5 * asked.width)
+        };
         for path in paths {
-            taken.extend(land(path, asked.width, area, size));
+            taken.extend(land(path, asked.width, area, size, &covered));
         }
     }
     // Strokes that lie on each other but for the last digits have no end of
@@ -226,7 +252,7 @@ fn between(
         .iter()
         .map(|path| extended(path, BEYOND * size))
         .collect();
-    sliced(&left, &lines)
+    left.iter().flat_map(|area| slice(area, &lines)).collect()
 }
 
 /// Centres whose Voronoi cells meet in the frame of the region: its Delaunay

@@ -15,6 +15,8 @@ use geo_types::Coord;
 
 use super::joins::{Groups, Link};
 use super::targets::{End, Targets};
+use crate::derive::Watch;
+use crate::error::Failure;
 use crate::plane::{cross, dist, dot, erode, lerp, nearest_on, sees, sides, Area, Router};
 
 /// Distances this small, as a share of the area's size, are none.
@@ -80,6 +82,7 @@ pub(super) struct Network<'a> {
     cast: Vec<bool>,
     /// The least angle between a ray and another path at one of its ends, radians.
     pub(super) narrow: f64,
+    pub(super) watch: Option<Watch<'a>>,
     pub(super) paths: Vec<Path>,
 }
 
@@ -107,14 +110,15 @@ impl<'a> Network<'a> {
             groups,
             cast: vec![false; centres.len()],
             narrow: 0.0,
+            watch: None,
             paths: Vec::new(),
         }
     }
 
     /// Joins centres.
-    pub(super) fn join(&mut self, links: &[Link]) {
+    pub(super) fn join(&mut self, links: &[Link]) -> Result<(), Failure> {
         if links.is_empty() {
-            return;
+            return Ok(());
         }
         let widths: Vec<Vec<f64>> = self
             .area
@@ -127,6 +131,7 @@ impl<'a> Network<'a> {
             .collect();
         let mut tight: Option<Router> = None;
         for &[a, b] in links {
+            self.watch.as_ref().map_or(Ok(()), Watch::look)?;
             let (from, to) = (self.centres[a], self.centres[b]);
             let line = roomy
                 .iter()
@@ -147,13 +152,20 @@ impl<'a> Network<'a> {
                 leaves: false,
             });
         }
+        Ok(())
     }
 
     /// Casts rays.
-    pub(super) fn cast(&mut self, targets: &Targets, rays: Rays, hidden: bool) {
+    pub(super) fn cast(
+        &mut self,
+        targets: &Targets,
+        rays: Rays,
+        hidden: bool,
+    ) -> Result<(), Failure> {
         let mut candidates: Vec<Candidate> = Vec::new();
         for (centre, &from) in self.centres.iter().enumerate() {
             for target in 0..targets.count() {
+                self.watch.as_ref().map_or(Ok(()), Watch::tick)?;
                 let end = targets.cast(self.area, self.size, from, target, hidden);
                 candidates.extend(end.map(|end| Candidate {
                     centre,
@@ -170,6 +182,7 @@ impl<'a> Network<'a> {
         let directed = matches!(targets, Targets::Directions(_));
         let mut reached = vec![false; targets.count()];
         for candidate in candidates {
+            self.watch.as_ref().map_or(Ok(()), Watch::tick)?;
             let skip = match rays {
                 Rays::Nearest => self.cast[candidate.centre],
                 Rays::Unconnected => !directed && reached[candidate.target],
@@ -180,6 +193,7 @@ impl<'a> Network<'a> {
                 reached[candidate.target] = true;
             }
         }
+        Ok(())
     }
 
     /// Gives centres without a way out one.
@@ -389,8 +403,8 @@ mod tests {
         let area = square();
         let targets = Targets::Places(area.outer.clone());
         let mut network = Network::new(&area, 20.0, 1.0, centres, &vec![0.0; centres.len()], &[]);
-        network.join(links);
-        network.cast(&targets, rays, false);
+        network.join(links).expect("time enough");
+        network.cast(&targets, rays, false).expect("time enough");
         network.exits();
         network.paths
     }
@@ -434,13 +448,14 @@ mod tests {
         let area = Area::new(u.map(|(x, y)| p(x, y)).to_vec(), Vec::new());
         let centres = [p(3., 26.), p(24., 26.)];
         let mut network = Network::new(&area, 30.0, 1.0, &centres, &[0.0; 2], &[]);
-        network.join(&[[0, 1]]);
+        network.join(&[[0, 1]]).expect("time enough");
         let line = &network.paths[0].line;
         assert!(line.len() > 3);
         // A metre from the corners.
         let room = |k: usize| area.nearest(lerp(line[k], line[k + 1], 0.5)).1;
         assert!((0..line.len() - 1).all(|k| room(k) > 0.99));
-        network.cast(&Targets::Places(Vec::new()), Rays::All, false);
+        let none = Targets::Places(Vec::new());
+        network.cast(&none, Rays::All, false).expect("time enough");
         network.exits();
         assert_eq!(network.paths.len(), 2);
         assert_eq!(network.paths[1].line, [p(3., 26.), p(0., 26.)]);

@@ -153,7 +153,7 @@ proptest! {
         let mut asked = asked(spots.clone(), corners(&outline, Motion::NONE), rays, join, width);
         asked.shapes = vec![shape; spots.len()];
         asked.output = shape.is_some();
-        let paths = walks(&region, &asked, &mut Stream::new(seed));
+        let paths = walks(&region, &asked, &mut Stream::new(seed), None).expect("time enough");
         for path in &paths {
             for pair in path.line.windows(2) {
                 prop_assert!(sees(&region.area, pair[0], pair[1]));
@@ -163,6 +163,10 @@ proptest! {
         let mut reached = joins::Groups::new(spots.len());
         for path in paths.iter().filter(|path| !is_ray(path)) {
             let [a, b] = path.centres.map(|c| c.expect("a join has two"));
+            reached.join(a, b);
+        }
+        let radii: Vec<f64> = asked.shapes.iter().map(|s| s.map_or(0.0, Primitive::radius)).collect();
+        for [a, b] in touching(&region, &asked, &radii) {
             reached.join(a, b);
         }
         for k in 0..spots.len() {
@@ -205,7 +209,7 @@ proptest! {
             Targets::Directions((0..directions).map(|k| coord! { x: angle(k).cos(), y: angle(k).sin() }).collect())
         };
         let asked = asked(spots, targets, rays, join, 2.0);
-        let paths = walks(&region, &asked, &mut Stream::new(seed));
+        let paths = walks(&region, &asked, &mut Stream::new(seed), None).expect("time enough");
         let crosses = |[a, b]: [Coord<f64>; 2], [p, q]: [Coord<f64>; 2]| {
             let side = |a: Coord<f64>, b: Coord<f64>, x: Coord<f64>| crate::plane::cross(b - a, x - a) / dist(a, b);
             // Well across, both ways.
@@ -239,7 +243,7 @@ proptest! {
                 return None;
             }
             let asked = asked(spots, corners(&outline, motion), rays, join, 2.0);
-            let paths = walks(&region, &asked, &mut Stream::new(3));
+            let paths = walks(&region, &asked, &mut Stream::new(3), None).expect("time enough");
             Some((paths, divide(&region, &asked, &mut Stream::new(3))))
         };
         let (Some((a, here)), Some((b, there))) = (cells(Motion::NONE), cells(motion)) else { return Ok(()) };

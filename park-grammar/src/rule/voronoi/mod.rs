@@ -58,7 +58,7 @@ use super::grid::piece;
 use super::sites::{self, sites};
 use super::smoothing::Smoother;
 use super::{Arguments, Ask, Output, Partition};
-use crate::derive::{outputs, Spot, Stream};
+use crate::derive::{outputs, Spot, Stream, Watch};
 use crate::error::Failure;
 use crate::plane::{lerp, oriented_box, rest, Diagram, Ring, Site};
 use crate::shape::{Heritage, Region, Role};
@@ -88,14 +88,28 @@ struct Asked {
 pub(crate) fn voronoi(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let asked = read(ask)?;
     let mut chance = ask.scope.chance.child();
-    divide(ask.scope.region, &asked, &mut chance).ok_or_else(|| {
+    let watch = ask.scope.watch();
+    let found = divided(ask.scope.region, &asked, &mut chance, Some(&watch))?;
+    found.ok_or_else(|| {
         let error = "the paths leave no room for regions";
         Failure::unfit(ask.operation.span, error)
     })
 }
 
-/// Divides a region; `None` if nothing but paths would be left.
+/// Divides a region, however long it takes.
+#[cfg(test)]
 fn divide(region: &Region, asked: &Asked, chance: &mut Stream) -> Option<Partition> {
+    divided(region, asked, chance, None).ok().flatten()
+}
+
+/// Divides a region; `None` if nothing but paths would be left.
+fn divided(
+    region: &Region,
+    asked: &Asked,
+    chance: &mut Stream,
+    watch: Option<&Watch<'_>>,
+) -> Result<Option<Partition>, Failure> {
+    let look = || watch.map_or(Ok(()), Watch::look);
     let Asked {
         spots, wave, plan, ..
     } = asked;
@@ -111,7 +125,9 @@ fn divide(region: &Region, asked: &Asked, chance: &mut Stream) -> Option<Partiti
         })
         .collect();
     let diagram = Diagram::new(&grown, &frame(region));
+    look()?;
     let rings = borders::rings(&diagram, &grown, wave, chance);
+    look()?;
     let at: Vec<_> = grown.iter().map(|site| site.at).collect();
     let cells = cells::within(&region.area, &rings, &at);
 
@@ -120,6 +136,7 @@ fn divide(region: &Region, asked: &Asked, chance: &mut Stream) -> Option<Partiti
     // Lawns with the number of their walls, and centres.
     let (mut whose, mut pieces, mut centres) = (Vec::new(), Vec::new(), Vec::new());
     for cell in &cells {
+        watch.map_or(Ok(()), Watch::tick)?;
         let wall = Walls::new(cell, &heritage);
         let lawns = plan.lawns(cell, &wall);
         let spot = spots[cell.site];
@@ -133,8 +150,9 @@ fn divide(region: &Region, asked: &Asked, chance: &mut Stream) -> Option<Partiti
         walls.push(wall);
     }
     if pieces.is_empty() && centres.is_empty() {
-        return None;
+        return Ok(None);
     }
+    look()?;
     let count = pieces.len();
     pieces.extend(centres);
     let (mut pieces, paths) = rest(&region.area, pieces);
@@ -152,13 +170,13 @@ fn divide(region: &Region, asked: &Asked, chance: &mut Stream) -> Option<Partiti
             .map(|area| piece(&heritage, area, axes, role))
             .collect()
     };
-    Some(Partition {
+    Ok(Some(Partition {
         outputs: vec![
             Output::lawns(regions.collect()),
             Output::paths(plain(paths, Role::Path)),
             Output::paths(plain(centres, Role::Centre)),
         ],
-    })
+    }))
 }
 
 fn read(ask: &mut Ask<'_, '_>) -> Result<Asked, Failure> {

@@ -1,0 +1,133 @@
+//! Limits: what leads back to itself and what takes too long is stopped, with an
+//! error that names the rule.
+
+use std::time::{Duration, Instant};
+
+use park_grammar::geo_types::{polygon, Polygon};
+use park_grammar::{DeriveOptions, Grammar, ParkError};
+
+fn square(side: f64) -> Polygon<f64> {
+    polygon![(x: 0., y: 0.), (x: side, y: 0.), (x: side, y: side), (x: 0., y: side)]
+}
+
+fn grammar(rules: &str) -> Grammar {
+    Grammar::new(&format!("grammar 1\n{rules}")).expect("reads")
+}
+
+/// What the error says of the limit.
+fn limit(rules: &str, options: &DeriveOptions) -> String {
+    match grammar(rules).derive(&square(80.0), options) {
+        Err(ParkError::Limit { what }) => what,
+        other => panic!("{rules}: {other:?}"),
+    }
+}
+
+#[test]
+fn rules_that_lead_back_to_themselves() {
+    let options = DeriveOptions::default();
+    for rules in [
+        "Region -> Bed\nBed -> Region",
+        "Region -> Bed\nBed -> Case { else: Bed }",
+        "Region -> Bed\nBed -> Grid(1, 1) { Bed } {}",
+        "Region -> Bed\nBed -> Peel(ALL, 0.1 %) { Lawn | Bed }",
+        "Region -> Bed\nBed -> Place(CENTRE) { Spot }\nSpot -> Spot",
+        "Region -> Bed\nBed -> Bed2(1)\nBed2(x) -> Bed",
+        "Region -> Bed\nfun Bed() -> Bed()",
+    ] {
+        let what = limit(rules, &options);
+        assert!(what.contains("rules lead to rules 64 deep"), "{what}");
+        assert!(what.contains("in the rule"), "{what}");
+    }
+    let what = limit(
+        "Region -> Grid(2, 2) { Quarter } {}\nQuarter -> Region",
+        &options,
+    );
+    assert!(what.ends_with("in the rule Quarter") || what.ends_with("in the rule Region"));
+}
+
+#[test]
+fn operations_are_counted() {
+    let options = DeriveOptions {
+        operations: 500,
+        ..DeriveOptions::default()
+    };
+    let rules = "Region -> Grid(40, 40) { Cell } {}\nCell -> Place(CENTRE) { Bin }";
+    let what = limit(rules, &options);
+    assert_eq!(what, "it came to 500 operations, the last in the rule Cell");
+    let rules = "Region -> Scatter(1000, room = 0.1) { Bin }";
+    assert!(limit(rules, &options).ends_with("in the rule Region"));
+}
+
+/// What each has to do is more than can be done in no time, and the operations
+/// look at the clock on their way: none is done to its end.
+#[test]
+fn time_holds_within_one_operation() {
+    let options = DeriveOptions {
+        time: Some(Duration::from_millis(30)),
+        ..DeriveOptions::default()
+    };
+    for rules in [
+        "Region -> Scatter(100000, room = 0.05) { Flowers }",
+        "Region -> Scatter(Poisson, room = 0.05) { Lamp }",
+        "Region -> ScatterCircles(100000 {0.05}) { Sand }",
+        "Region -> ScatterCircles({0.05}) { Sand }",
+        "Region -> Grid(500, 500, width = 0.01) { Lawn }",
+        "Region -> Grid(500, 500) { Lawn } {}",
+        "Region -> Distribute(ALL, 0.004) { Bin }",
+        "Region -> VoronoiRegions(ScatterCircles(5000 {0.2}), width = 0.1) { Lawn }",
+        "Region -> CastRays(ScatterCircles(500 {0.3}), 3600, rays = all, width = 0.1) { Lawn }",
+        "Region -> Place(Along(ALL, 90000)) { Bin }",
+    ] {
+        let began = Instant::now();
+        let what = limit(rules, &options);
+        assert_eq!(
+            what, "it took more than 0.03 s, the last in the rule Region",
+            "{rules}"
+        );
+        // One boolean, or one look for places, is not interrupted.
+        assert!(began.elapsed() < Duration::from_secs(30), "{rules}");
+    }
+}
+
+/// How often an operation asks whether to go on, and that it stops when told.
+#[test]
+fn long_operations_ask_whether_to_go_on() {
+    for (rules, least) in [
+        ("Region -> Grid(60, 60, width = 0.1) { Lawn }", 100),
+        ("Region -> Scatter(2000, room = 0.05) { Bin }", 2000),
+        ("Region -> ScatterCircles({0.7}) { Sand }", 100),
+        ("Region -> VoronoiRegions(Spots, width = 0.1) { Lawn }\nSpots -> ScatterCircles(300 {0.5})", 10),
+        ("Region -> CastRays(CENTRE, 3600) { Lawn }", 50),
+    ] {
+        let grammar = grammar(rules);
+        let mut asked = 0;
+        let options = DeriveOptions {
+            time: None,
+            ..DeriveOptions::default()
+        };
+        let all = grammar.derive_watched(&square(80.0), &options, &mut |_| {
+            asked += 1;
+            true
+        });
+        assert!(all.is_ok() && asked >= least, "{rules}: {asked} {:?}", all.err());
+        let mut left = asked / 2;
+        let half = grammar.derive_watched(&square(80.0), &options, &mut |_| {
+            left -= 1;
+            left > 0
+        });
+        assert_eq!(half, Err(ParkError::Cancelled), "{rules}");
+        assert_eq!(left, 0, "{rules}");
+    }
+}
+
+#[test]
+fn unknown_parameters_are_named() {
+    let mut options = DeriveOptions::default();
+    options.params.insert("PathWith".to_owned(), 3.0);
+    let found = grammar("param PathWidth = 2\nRegion -> Lawn").derive(&square(9.0), &options);
+    let error = found.expect_err("unknown").to_string();
+    assert!(
+        error.contains("no parameter PathWith") && error.contains("PathWidth"),
+        "{error}"
+    );
+}
