@@ -664,6 +664,59 @@ fn ball_cuts_hold_at_irregular_vertices() {
     }
 }
 
+/// A row of squares, its first vertex the sink; vertex 2 k + 1 is over 2 k.
+fn ladder(squares: usize, coverage: &[&[usize]]) -> Problem {
+    let mut ends = vec![[0, 1]];
+    for k in 0..squares {
+        let [a, b, c, d] = [2 * k, 2 * k + 1, 2 * k + 2, 2 * k + 3];
+        ends.extend([[a, c], [b, d], [c, d]]);
+    }
+    Problem {
+        vertices: 2 * squares + 2,
+        lengths: vec![1.0; ends.len()],
+        states: vec![EdgeState::Open; ends.len()],
+        sinks: (0..2 * squares + 2).map(|v| v == 0).collect(),
+        coverage: coverage.iter().map(|set| set.to_vec()).collect(),
+        length_weight: 1.0,
+        ends,
+        ..Problem::default()
+    }
+}
+
+/// Rings that share an edge are counted once, those that are one and the same
+/// are not: over all networks, of which each sum of rings is as large in one as
+/// its row allows.
+#[test]
+fn rings_with_a_common_edge_are_told_apart() {
+    let shared: [&[usize]; 2] = [&[2, 3, 4, 5], &[4, 5, 6, 7]];
+    let same: [&[usize]; 2] = [&[2, 3, 4, 5, 6], &[2, 3, 4, 5, 7]];
+    for (coverage, together) in [(shared, false), (same, true)] {
+        let problem = ladder(4, &coverage);
+        let formulated = Formulated::new(&problem, Formulation::Flow, None).unwrap();
+        let columns = formulated.program().columns();
+        // The only columns that are real and cost nothing before those of the flow.
+        let first = columns.iter().position(|c| !c.integer).unwrap();
+        let rings = [first, first + 1];
+        // On the edge that the squares share, or each on its own edges.
+        let edge = problem.ends.iter().position(|&e| e == [4, 5]).unwrap();
+        let common = |row: &Row| {
+            let factor = |c: usize| row.terms.iter().find(|t| t.0 == c).map(|t| t.1);
+            rings.iter().all(|&r| factor(r) == Some(-1.0)) && factor(edge) == Some(1.0)
+        };
+        let rows = formulated.program().rows();
+        assert_eq!(rows.iter().any(common), !together);
+        let mut most: f64 = 0.0;
+        let valid = all_valid(&problem);
+        assert!(!valid.is_empty());
+        for network in &valid {
+            let values = formulated.solution(network);
+            assert!(formulated.program().violation(&values) < CLOSE);
+            most = most.max(rings.iter().map(|&r| values[r]).sum());
+        }
+        assert_eq!(most, if together { 2.0 } else { 1.0 });
+    }
+}
+
 /// The paper's own formulation has the paper's number of variables: 2241 for
 /// figure 2a, twelve by twelve quads, the boundary given and all sinks. The
 /// paper did not count those of dead ends and zig-zags.

@@ -1,9 +1,12 @@
-//! Derives parks and draws them side by side: a grammar of the library or a file,
-//! on the outlines of GeoJSON files in degrees.
+//! Derives parks and draws them side by side: a grammar of the library, all of them
+//! (`library`), or a file, on the outlines of GeoJSON files in degrees.
 //!
 //! `cargo run -p park-grammar --example derive -- simple_square plans.svg 0 parks/*.geojson`
 //!
-//! The number is the seed. Laws that a park breaks are told with it.
+//! The number is the seed. Laws that a park breaks are told with it. The guide's
+//! picture of the library is
+//!
+//! `cargo run -p park-grammar --example derive -- library docs/images/park/library.svg 1 tests/data/parks/helsinki_makasiini.geojson`
 
 #[path = "../tests/outline/mod.rs"]
 mod outline;
@@ -41,34 +44,35 @@ fn run() -> Result<(), Box<dyn Error>> {
     let [grammar, out, seed, parks @ ..] = arguments.as_slice() else {
         return Err("usage: derive GRAMMAR OUT.svg SEED PARK.geojson...".into());
     };
-    let grammar = match grammars::named(grammar) {
-        Some(known) => known.grammar()?,
-        None => Grammar::read(grammar)?,
+    let wanted = match (grammar.as_str(), grammars::named(grammar)) {
+        ("library", _) => grammars::ALL.to_vec(),
+        (_, Some(known)) => vec![*known],
+        (_, None) => Vec::new(),
     };
+    let mut all: Vec<(&str, Grammar)> = Vec::new();
+    for known in &wanted {
+        all.push((known.name, known.grammar()?));
+    }
+    if all.is_empty() {
+        all.push(("", Grammar::read(grammar)?));
+    }
     let options = DeriveOptions {
         seed: seed.parse()?,
         ..DeriveOptions::default()
     };
     let mut sheet = Sheet::default();
-    for park in parks {
-        let name = Path::new(park).file_stem().unwrap_or_default();
-        let name = name.to_string_lossy().replace('_', " ");
-        let outline = outline::outline(&std::fs::read_to_string(park)?)?;
-        let began = Instant::now();
-        match grammar.derive(&outline, &options) {
-            Ok(scene) => {
-                let (time, things) = (began.elapsed(), scene.objects.len());
-                let pieces = scene.pieces.len();
-                println!("{name}: {pieces} pieces, {things} things, {time:.0?}");
-                for broken in scene.audit(&outline).violations {
-                    println!("  {broken}");
-                }
-                sheet.add(&name, &scene);
-            }
-            Err(error) => println!("{name}: {error}"),
+    for (kind, grammar) in &all {
+        for park in parks {
+            let stem = Path::new(park).file_stem().unwrap_or_default();
+            let name = if all.len() > 1 && parks.len() == 1 {
+                (*kind).to_owned()
+            } else {
+                stem.to_string_lossy().into_owned()
+            };
+            sheet.derive(&name.replace('_', " "), grammar, &options, park)?;
         }
     }
-    std::fs::write(out, sheet.svg(parks.len()))?;
+    std::fs::write(out, sheet.svg())?;
     Ok(())
 }
 
@@ -81,6 +85,31 @@ struct Sheet {
 }
 
 impl Sheet {
+    /// Derives a park, says what came of it, and draws it.
+    fn derive(
+        &mut self,
+        name: &str,
+        grammar: &Grammar,
+        options: &DeriveOptions,
+        park: &str,
+    ) -> Result<(), Box<dyn Error>> {
+        let outline = outline::outline(&std::fs::read_to_string(park)?)?;
+        let began = Instant::now();
+        match grammar.derive(&outline, options) {
+            Ok(scene) => {
+                let (time, things) = (began.elapsed(), scene.objects.len());
+                let pieces = scene.pieces.len();
+                println!("{name}: {pieces} pieces, {things} things, {time:.0?}");
+                for broken in scene.audit(&outline).violations {
+                    println!("  {broken}");
+                }
+                self.add(name, &scene);
+            }
+            Err(error) => println!("{name}: {error}"),
+        }
+        Ok(())
+    }
+
     fn add(&mut self, name: &str, scene: &Scene) {
         let corners = || scene.pieces.iter().flat_map(|p| &p.polygon.exterior().0);
         let none = coord! { x: f64::MAX, y: f64::MAX };
@@ -112,9 +141,9 @@ impl Sheet {
         self.plans += 1;
     }
 
-    fn svg(&self, parks: usize) -> String {
-        let columns = parks.clamp(1, COLUMNS) as f64;
-        let rows = parks.div_ceil(COLUMNS).max(1) as f64;
+    fn svg(&self) -> String {
+        let columns = self.plans.clamp(1, COLUMNS) as f64;
+        let rows = self.plans.div_ceil(COLUMNS).max(1) as f64;
         let defs: String = self.defs.values().map(String::as_str).collect();
         let [width, height] = [columns * CELL[0], rows * CELL[1]];
         format!(

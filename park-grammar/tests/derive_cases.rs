@@ -128,3 +128,22 @@ fn materials_say_what_is_walked_on() {
     let park = derive("Region -> Grid(2, 1) { Lawn } { GrassPath }").expect("derives");
     assert_eq!(park.pieces[2].ground, Ground::Path);
 }
+
+/// A path ends with the boundary up to rounding; once it left a hair there that
+/// joined both sides.
+#[test]
+fn paths_cut_regions_through() {
+    let park = polygon![
+        (x: -0.02, y: -6.48), (x: 66.73, y: -99.95), (x: 181.98, y: -19.75),
+        (x: 114.17, y: 77.28), (x: 76.63, y: 52.85), (x: 30.43, y: 21.49)
+    ];
+    for y in 0..40 {
+        let y = 0.3 + 0.01 * f64::from(y);
+        let rules = format!(
+            "grammar 1\nRegion -> SplitAlong((0, 0.4), (0.2, {y}), (1, 0.5), curve = smooth, width = 3) {{ Lawn | Meadow | Gravel }}"
+        );
+        let grammar = Grammar::new(&rules).expect("reads");
+        let scene = grammar.derive(&park, &DeriveOptions::default());
+        assert_eq!(scene.map(|s| s.pieces.len()), Ok(3), "{y}");
+    }
+}

@@ -336,3 +336,36 @@ fn the_notes_free_form() {
     assert_eq!(count(&scene, "GREEN_GRASS"), 5);
     assert!(count(&scene, "Gravel") >= 1);
 }
+
+#[test]
+fn the_notes_simple_square() {
+    let scene = notes(
+        40.0,
+        "Region -> Grid(2, 2) { ParkQuarter } { ParkPath } { Romb(3) Fountain }
+
+         ParkQuarter -> Peel(OUTER) { 0.75: TreeStrip | GrassRegion }
+
+         TreeStrip ->  BLUE_GRASS
+         Distribute (OUTER_EDGE: 0.375, 2) {TallTree}
+
+         GrassRegion -> GREEN_GRASS
+         Place( CENTRE) { TreeRegion }
+         DistributeSmooth( Boundary1(Perimeter))  { Bush }
+
+         fun Boundary1(area) ->
+         Parametrise([0.02,1], [0, 1], [0, 0.15], 0) { Contract(1, area) }
+
+         TreeRegion -> Circle (1)
+         Place (CENTRE) { Tree }
+
+         ParkPath -> Gravel",
+    );
+    assert_eq!(count(&scene, "BLUE_GRASS"), 4);
+    // The lawns, and the round ground of their trees, which is of the same.
+    assert_eq!(count(&scene, "GREEN_GRASS"), 8);
+    let of = |name: &str| scene.objects.iter().filter(|o| o.name == name).count();
+    assert_eq!((of("Fountain"), of("Tree")), (1, 4));
+    // Two sides of about 19 m, 2 m from tree to tree.
+    assert!(of("TallTree") >= 4 * 18, "{}", of("TallTree"));
+    assert!(!scene.volumes.is_empty());
+}

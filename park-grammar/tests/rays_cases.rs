@@ -1,12 +1,12 @@
 //! What `CastRays` makes, by examples with known answers.
 
-mod tiling;
+mod common;
 
 use park_grammar::geo_types::{polygon, LineString, Polygon};
 use park_grammar::scene::Piece;
 use park_grammar::Scene;
 
-use tiling::{park, size};
+use common::{park, size};
 
 /// 40 wide and high.
 fn square() -> Polygon<f64> {
@@ -263,4 +263,18 @@ fn paths_along_each_other_come_to_an_end() {
     let scene = park(&star, rules, 566).expect("derives");
     let all: f64 = scene.pieces.iter().map(|p| size(&p.polygon)).sum();
     assert!((all / size(&star) - 1.0).abs() < 1e-9);
+}
+
+/// A centre as wide as the paths has no slivers of path around it: its polygon and
+/// that of a path's end are not turned alike.
+#[test]
+fn centres_as_wide_as_paths_are_clean() {
+    let rules =
+        "Region -> CastRays(CENTRE, 37 deg, width = 4) { Meadow } { Paving } { Circle(2) Sand }";
+    let scene = derive(rules);
+    assert_eq!(
+        (of(&scene, "Paving").len(), of(&scene, "Sand").len()),
+        (1, 1)
+    );
+    assert!(near(total(&of(&scene, "Sand")), circle(2.0)));
 }

@@ -1,14 +1,13 @@
 //! Laws of `CastRays` as grammars use it; those of its paths are beside it.
 
-mod tiling;
+mod common;
 
 use park_grammar::geo_types::Coord;
-use park_grammar::scene::Ground;
 use park_grammar::ParkError;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use tiling::{clearance, config, is_tiled, outline, park, within};
+use common::{clearance, config, has_no_hairs, is_tiled, outline, park, stairs, within};
 
 fn centres() -> impl Strategy<Value = String> {
     let by_hand = vec((0.0..1.0_f64, 0.0..1.0_f64), 1..7).prop_map(|all| {
@@ -71,7 +70,7 @@ proptest! {
     /// seed; or the region does not suit and the error says why.
     #[test]
     fn cells_and_paths_tile_any_region(
-        outline in outline(),
+        outline in prop_oneof![3 => outline(), 1 => stairs()],
         centres in centres(),
         targets in targets(),
         arguments in arguments(),
@@ -83,6 +82,7 @@ proptest! {
         match park(&outline, &rules, seed) {
             Ok(scene) => {
                 is_tiled(&outline, &scene, &probes)?;
+                has_no_hairs(&scene)?;
                 prop_assert_eq!(Ok(scene), park(&outline, &rules, seed));
             }
             Err(error) => prop_assert!(matches!(error, ParkError::Rule(_)), "{}", error),
@@ -93,7 +93,7 @@ proptest! {
     /// other are one walk, and each walk comes to the outline.
     #[test]
     fn walks_lead_to_the_outline(
-        outline in outline(),
+        outline in prop_oneof![3 => outline(), 1 => stairs()],
         count in 1..6_u32,
         targets in prop_oneof![Just("Corners(Region)"), Just("5"), Just("Along(ALL, 3)")],
         arguments in arguments(),
@@ -101,7 +101,7 @@ proptest! {
     ) {
         let rules = format!("Region -> CastRays(ScatterCircles({count}), {targets}{arguments}) {{ Meadow }} {{ Paving }} {{ Circle(2) Sand }}");
         let Ok(scene) = park(&outline, &rules, seed) else { return Ok(()) };
-        let paths: Vec<_> = scene.pieces.iter().filter(|p| p.ground == Ground::Path).collect();
+        let paths: Vec<_> = scene.pieces.iter().filter(|p| p.material != "Meadow").collect();
         let vertices = |k: usize| -> Vec<Coord<f64>> {
             let polygon = &paths[k].polygon;
             let rings = std::iter::once(polygon.exterior()).chain(polygon.interiors());
@@ -122,7 +122,7 @@ proptest! {
 
     /// The middle of every centre lies in the outline, and none on a cell.
     #[test]
-    fn centres_lie_inside(outline in outline(), count in 1..6_u32, seed in 0..1000_u64) {
+    fn centres_lie_inside(outline in prop_oneof![3 => outline(), 1 => stairs()], count in 1..6_u32, seed in 0..1000_u64) {
         let rules = format!("Region -> CastRays(ScatterCircles({count}), Corners(Region)) {{ Meadow }} {{ Paving }} {{ Romb(3) Sand Fountain }}");
         let Ok(scene) = park(&outline, &rules, seed) else { return Ok(()) };
         for object in &scene.objects {

@@ -1,12 +1,12 @@
 //! What `VoronoiRegions` makes, by examples with known answers.
 
-mod tiling;
+mod common;
 
 use park_grammar::geo_types::{polygon, Polygon};
 use park_grammar::scene::{Ground, Piece};
 use park_grammar::Scene;
 
-use tiling::{park, size};
+use common::{park, size};
 
 /// 60 wide, 40 high.
 fn rectangle() -> Polygon<f64> {

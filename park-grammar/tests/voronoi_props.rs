@@ -1,13 +1,13 @@
 //! Laws of `VoronoiRegions` as grammars use it; those of its cells are beside it.
 
-mod tiling;
+mod common;
 
 use park_grammar::geo_types::Coord;
 use park_grammar::ParkError;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use tiling::{config, is_tiled, outline, park, size, within};
+use common::{config, has_no_hairs, is_tiled, outline, park, size, stairs, within};
 
 fn points() -> impl Strategy<Value = String> {
     let by_hand = vec((0.0..1.0_f64, 0.0..1.0_f64), 1..20).prop_map(|all| {
@@ -67,7 +67,7 @@ proptest! {
     /// seed; or the region does not suit and the error says why.
     #[test]
     fn cells_and_paths_tile_any_region(
-        outline in outline(),
+        outline in prop_oneof![3 => outline(), 1 => stairs()],
         points in points(),
         arguments in arguments(),
         blocks in blocks(),
@@ -78,6 +78,7 @@ proptest! {
         match park(&outline, &rules, seed) {
             Ok(scene) => {
                 is_tiled(&outline, &scene, &probes)?;
+                has_no_hairs(&scene)?;
                 prop_assert_eq!(Ok(scene), park(&outline, &rules, seed));
             }
             Err(error) => prop_assert!(matches!(error, ParkError::Rule(_)), "{}", error),
@@ -87,7 +88,7 @@ proptest! {
     /// Cells of cells, of any shape, tile too; with grids and rays in them.
     #[test]
     fn nested_cells_tile(
-        outline in outline(),
+        outline in prop_oneof![3 => outline(), 1 => stairs()],
         first in arguments(),
         inner in prop_oneof![
             Just("VoronoiRegions(ScatterCircles(4), amplitude = 1) { Meadow } { Gravel }"),
@@ -108,7 +109,7 @@ proptest! {
     /// smoothing, there is path with it.
     #[test]
     fn smoothing_gives_to_the_paths(
-        outline in outline(),
+        outline in prop_oneof![3 => outline(), 1 => stairs()],
         smoothing in prop_oneof![Just("average"), Just("chaikin"), Just("round, radius = 5"), Just("average, reach = 4")],
         amplitude in 0..6_u32,
         probes in probes(),

@@ -14,7 +14,12 @@ fn a_plan_is_written_and_certified() {
     assert!(said.contains("parcels"), "{said}");
     assert_eq!(
         names(&bench.path("plan")),
-        ["layout.geojson", "layout.svg", "metrics.json", "parks.geojson"]
+        [
+            "layout.geojson",
+            "layout.svg",
+            "metrics.json",
+            "parks.geojson"
+        ]
     );
     let said = bench.expect(0, &["check", "site.geojson", "plan/layout.geojson"]);
     assert!(said.lines().count() > 15 && !said.contains("FAILED"));

@@ -384,8 +384,14 @@ fn parks_of_a_plan_are_designed() {
     let site = site.to_string_lossy();
     let words = ["generate", &*site, "--out"];
     bench.expect(0, &[&words[..], &["auto"]].concat());
-    bench.expect(0, &[&words[..], &["woods", "--park-grammar", "woodland"]].concat());
-    bench.expect(0, &[&words[..], &["plain", "--park-grammar", "none"]].concat());
+    bench.expect(
+        0,
+        &[&words[..], &["woods", "--park-grammar", "woodland"]].concat(),
+    );
+    bench.expect(
+        0,
+        &[&words[..], &["plain", "--park-grammar", "none"]].concat(),
+    );
     let read = |name: &str| std::fs::read_to_string(bench.path(name)).expect("written");
     let parks = |folder: &str| features(&read(&format!("{folder}/parks.geojson")));
     let auto = parks("auto");
@@ -399,7 +405,9 @@ fn parks_of_a_plan_are_designed() {
         assert!(ids.contains(&feature["properties"]["park"].as_u64().expect("a tile")));
     }
     let woods = parks("woods");
-    assert!(woods.iter().all(|f| f["properties"]["grammar"] == "woodland"));
+    assert!(woods
+        .iter()
+        .all(|f| f["properties"]["grammar"] == "woodland"));
     assert!(parks("plain").is_empty());
     assert!(read("auto/layout.geojson") == read("plain/layout.geojson"));
     assert!(read("auto/layout.svg").contains("park-on-Lawn"));

@@ -9,22 +9,29 @@ const STEPS: usize = 20_000;
 /// Sets of edges that are kept.
 const SETS: usize = 24;
 
-/// Sets of edges, each of which meets every cycle of a small graph that does
-/// not contain one of the `forbidden` sets; one empty set if there is no such
-/// cycle. At least one, none twice, in a fixed order.
-///
-/// `edges` are numbers with their two ends. Each set meets all cycles, but that
-/// the least ones or all are found is not promised: where cycles are too many
-/// to be listed, the one set is of the edges outside a spanning forest, which
-/// every cycle meets.
-pub(super) fn meeting_sets(
-    edges: &[(usize, [usize; 2])],
-    forbidden: &[Vec<usize>],
-) -> Vec<Vec<usize>> {
-    match cycles(edges, forbidden) {
-        Some(cycles) => transversals(&cycles),
+/// The cycles of a small graph, and what meets them.
+#[derive(Debug)]
+pub(super) struct Cycles {
+    /// All of them, each with its edges ascending; `None` if they are too many.
+    pub(super) all: Option<Vec<Vec<usize>>>,
+    /// Sets of edges, each of which meets every cycle; one empty set if there
+    /// is no cycle. At least one, none twice, in a fixed order, edges ascending.
+    ///
+    /// That the least ones or all are found is not promised: where cycles are
+    /// too many to be listed, the one set is of the edges outside a spanning
+    /// forest, which every cycle meets.
+    pub(super) sets: Vec<Vec<usize>>,
+}
+
+/// The cycles that do not contain one of the `forbidden` sets; `edges` are
+/// numbers with their two ends.
+pub(super) fn cycles_within(edges: &[(usize, [usize; 2])], forbidden: &[Vec<usize>]) -> Cycles {
+    let all = cycles(edges, forbidden);
+    let sets = match &all {
+        Some(cycles) => transversals(cycles),
         None => vec![outside_forest(edges)],
-    }
+    };
+    Cycles { all, sets }
 }
 
 /// All simple cycles without a forbidden set, each once, its edges ascending;
@@ -271,14 +278,14 @@ mod tests {
         // Without too close edges only the frame.
         let frame = cycles(&window(), &too_close()).expect("few");
         assert_eq!(frame, [vec![0, 1, 4, 5, 6, 8, 9, 11]]);
-        let sets = meeting_sets(&window(), &too_close());
+        let sets = cycles_within(&window(), &too_close()).sets;
         assert_eq!(sets.len(), 8);
         assert!(sets.iter().all(|set| set.len() == 1));
     }
 
     #[test]
     fn every_set_meets_every_cycle() {
-        let sets = meeting_sets(&window(), &[]);
+        let sets = cycles_within(&window(), &[]).sets;
         let all = cycles(&window(), &[]).expect("few");
         let forest = outside_forest(&window());
         // 12 edges, 9 vertices, 4 independent cycles.
@@ -290,7 +297,9 @@ mod tests {
             );
         }
         // A tree has no cycle.
-        assert_eq!(meeting_sets(&window()[..4], &[]), [Vec::<usize>::new()]);
+        let tree = cycles_within(&window()[..4], &[]);
+        assert_eq!(tree.sets, [Vec::<usize>::new()]);
+        assert_eq!(tree.all, Some(vec![]));
     }
 
     #[test]
@@ -331,8 +340,8 @@ mod tests {
         let complete: Vec<[usize; 2]> = (0..n).flat_map(|a| (0..a).map(move |b| [b, a])).collect();
         let edges: Vec<_> = complete.into_iter().enumerate().collect();
         assert_eq!(cycles(&edges, &[]), None);
-        let sets = meeting_sets(&edges, &[]);
-        assert_eq!(sets.len(), 1);
+        let Cycles { all, sets } = cycles_within(&edges, &[]);
+        assert_eq!((all, sets.len()), (None, 1));
         assert_eq!(sets[0].len(), n * (n - 1) / 2 - (n - 1));
     }
 }

@@ -71,7 +71,7 @@ struct Cut {
 /// too large or travel costs nothing.
 pub(super) fn add(draft: &mut Draft<'_>, travel: &Travel) -> Option<Detours> {
     let problem = draft.problem;
-    if !is_worth_it(draft) {
+    if !are_worth_it(draft) {
         return None;
     }
     let mut way = vec![None; problem.edges()];
@@ -94,13 +94,13 @@ pub(super) fn add(draft: &mut Draft<'_>, travel: &Travel) -> Option<Detours> {
 
 /// The cuts of a program that has a column for the way of each edge already.
 pub(super) fn of(draft: &Draft<'_>, way: Vec<Option<usize>>) -> Option<Detours> {
-    is_worth_it(draft).then(|| Detours::of(draft, way))
+    are_worth_it(draft).then(|| Detours::of(draft, way))
 }
 
 /// Where travel alone counts and sinks are many hardly any cut is violated, and
 /// columns for ways only slow the program down: of 12 x 12 squares whose boundary
 /// is sink the proof took 11 s without them, and was not there after 30 s with.
-fn is_worth_it(draft: &Draft<'_>) -> bool {
+pub(super) fn are_worth_it(draft: &Draft<'_>) -> bool {
     let problem = draft.problem;
     let sinks = problem.sinks.iter().filter(|&&sink| sink).count();
     let saves = problem.length_weight > SAVED * problem.travel_weight || sinks <= FEW;

@@ -4,13 +4,14 @@
 //! `activity` (1), `dead_ends` (2), `coverage` (3), `patterns` (4, 5), `balls`
 //! (6), `flow` (7), `travel` (8), `single_sink` (9), `routes`, `rooms` (15 to
 //! 17, 20 and 21), `parents` and `room_balls` (22 to 25), `detours` (26, 27), `sinks`
-//! (28), and `paper`, the formulation of Peng et al. 2016 as they wrote it. With
+//! (28), `connections` (29), and `paper`, the formulation of Peng et al. 2016 as they wrote it. With
 //! one-way streets `arcs` (10 to 12) and `one_way` (13, 14) take the place of
 //! `flow` and `travel`; these two have numbers of their own.
 
 mod activity;
 mod arcs;
 mod balls;
+mod connections;
 mod coverage;
 mod cycles;
 mod dead_ends;
@@ -34,6 +35,7 @@ use crate::design::{Heading, Network, Problem, Streets};
 use crate::error::DesignError;
 use crate::mip::{Program, Row};
 
+use connections::Connections;
 use detours::Detours;
 use draft::{Draft, Fill, Known, Term};
 use room_balls::RoomBalls;
@@ -108,6 +110,11 @@ pub struct Cuts {
     ///
     /// Default value: `true`.
     pub detours: bool,
+    /// Connection cuts (29): what has to be active is joined to a sink by a whole
+    /// street. Of all formulations but [`Formulation::Paper`].
+    ///
+    /// Default value: `true`.
+    pub connections: bool,
 }
 
 impl Default for Cuts {
@@ -124,6 +131,7 @@ impl Cuts {
             balls: true,
             rooms: true,
             detours: true,
+            connections: true,
         }
     }
 
@@ -134,6 +142,7 @@ impl Cuts {
             balls: false,
             rooms: false,
             detours: false,
+            connections: false,
         }
     }
 }
@@ -150,7 +159,10 @@ pub struct Formulated<'p> {
     placed: sinks::Placed,
     room_balls: Option<RoomBalls>,
     detours: Option<Detours>,
+    connections: Option<Connections>,
     families: Vec<Family>,
+    /// Rows before those that were added by [`Formulated::cut`].
+    own_rows: usize,
     contradicts: bool,
     longest: Option<Vec<f64>>,
     /// Columns before those of connectivity, travel and rooms, and the first of
@@ -240,7 +252,7 @@ impl<'p> Formulated<'p> {
         if tight {
             plain(Box::new(patterns::add(&mut draft)));
             if cuts.balls {
-                balls::add(&mut draft);
+                plain(Box::new(balls::add(&mut draft)));
             }
         }
         let mut detours = None;
@@ -289,6 +301,9 @@ impl<'p> Formulated<'p> {
             }
             Formulation::Paper => plain(Box::new(paper::add(&mut draft))),
         }
+        let connections = cuts
+            .connections
+            .then(|| Connections::of(&draft, formulation));
         let room_columns = draft.program.columns().len();
         let mut room_balls = None;
         let rooms = rooms::add(&mut draft, tight).map(|rooms| {
@@ -303,6 +318,7 @@ impl<'p> Formulated<'p> {
         });
         let mut program = draft.program;
         program.promise_step(step(problem, formulation));
+        let own_rows = program.rows().len();
         Ok(Self {
             problem,
             formulation,
@@ -313,7 +329,9 @@ impl<'p> Formulated<'p> {
             placed,
             room_balls,
             detours,
+            connections: connections.flatten(),
             families,
+            own_rows,
             contradicts: draft.contradicts,
             longest,
             plain: [plain_columns, room_columns],
@@ -404,8 +422,8 @@ impl<'p> Formulated<'p> {
     }
 
     /// Valid rows that a solution of the relaxation violates by over
-    /// `tolerance`: room cuts and detour cuts, which are too many to write all of
-    /// them down.
+    /// `tolerance`: room cuts, detour cuts and connection cuts, which are too many
+    /// to write all of them down.
     #[must_use]
     pub fn separate(&self, values: &[f64], tolerance: f64) -> Vec<Row> {
         let rooms = self.room_balls.iter();
@@ -414,6 +432,8 @@ impl<'p> Formulated<'p> {
             .collect();
         let detours = self.detours.iter();
         rows.extend(detours.flat_map(|detours| detours.separate(values, tolerance)));
+        let connections = self.connections.iter();
+        rows.extend(connections.flat_map(|all| all.separate(values, tolerance)));
         rows
     }
 
@@ -461,12 +481,21 @@ impl<'p> Formulated<'p> {
     /// Whether there are any such rows.
     #[must_use]
     pub fn separates(&self) -> bool {
-        self.room_balls.is_some() || self.detours.is_some()
+        self.room_balls.is_some() || self.detours.is_some() || self.connections.is_some()
     }
 
     /// Adds a row that all valid networks meet.
     pub fn cut(&mut self, row: Row) {
         self.program.row(row.low, row.high, row.terms);
+    }
+
+    /// Drops the rows that were added and that a solution of the relaxation does
+    /// not need, where there may be connection cuts among them, of which many
+    /// are in the way of others that come later.
+    pub(crate) fn drop_idle_cuts(&mut self, values: &[f64]) {
+        if self.connections.is_some() && self.room_balls.is_none() {
+            self.program.drop_idle_rows(self.own_rows, values);
+        }
     }
 
     /// Adds a row: length, patterns, routes and wishes cost `low` at least and `high` at most,

@@ -147,6 +147,18 @@ impl Program {
         self.rows.iter().map(|row| row.terms.len()).sum()
     }
 
+    /// Drops the rows from `first` on that hold with more than their least value.
+    pub(crate) fn drop_idle_rows(&mut self, first: usize, values: &[f64]) {
+        let mut number = 0;
+        self.rows.retain(|row| {
+            number += 1;
+            let sum: f64 = (row.terms.iter())
+                .map(|&(c, factor)| factor * values[c])
+                .sum();
+            number <= first || sum <= row.low + 1e-6
+        });
+    }
+
     /// The linear relaxation: every column may be fractional.
     #[must_use]
     pub fn relaxed(&self) -> Self {
@@ -218,6 +230,13 @@ mod tests {
         assert_eq!(program.relaxed().violation(&[0.5, 6.0]), 1.0);
         assert_eq!(program.nonzeros(), 1);
         assert_eq!(program.rounded(0.3), 0.3);
+        // One half of `a` is more than the last of three rows needs.
+        let all = program.rows().to_vec();
+        program.row(0.5, f64::INFINITY, [(a, 1.0)]);
+        program.row(0.4, f64::INFINITY, [(a, 1.0)]);
+        program.drop_idle_rows(1, &[0.5, 0.0]);
+        assert_eq!(program.rows()[..1], all);
+        assert_eq!(program.rows().len(), 2);
         program.promise_step(0.5);
         assert_eq!(program.rounded(0.3), 0.5);
         assert_eq!(program.rounded(0.500_001), 0.500_001);

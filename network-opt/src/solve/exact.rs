@@ -44,8 +44,8 @@ pub struct Exact<M> {
     /// Default value: [`Formulation::Recommended`].
     pub formulation: Formulation,
     /// Rounds of cuts at most that are added where a solution of the relaxation
-    /// violates them, before the search: room cuts. They have half of the time at
-    /// most.
+    /// violates them, before the search: room cuts, detour cuts and connection
+    /// cuts. They have half of the time at most.
     ///
     /// Default value: 12.
     pub rounds: usize,
@@ -119,6 +119,12 @@ impl<M: MipSolver> Exact<M> {
         Ok(record.outcome(run.ended()))
     }
 }
+
+/// Rounds of cuts in a row that raise the bound by less than [`PROGRESS`] of it,
+/// after which there are no more. Where relaxations have many solutions of one cost
+/// a round or two may do nothing.
+const IDLE: usize = 3;
+const PROGRESS: f64 = 1e-4;
 
 /// When a run is over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -220,6 +226,9 @@ impl<M: MipSolver> Exact<M> {
         if !formulated.separates() {
             return Ok(());
         }
+        // Rounds without progress, and the last solution with what it costs.
+        let mut idle = 0;
+        let mut last: Option<(Vec<f64>, f64)> = None;
         for _ in 0..self.rounds {
             if record.cancelled || record.is_within(limits.gap) {
                 break;
@@ -237,15 +246,22 @@ impl<M: MipSolver> Exact<M> {
                 let received = record.receive();
                 record.report(received).into()
             })?;
-            let (MipStatus::Optimal, Some(values)) = (found.status, &found.solution) else {
+            let (MipStatus::Optimal, Some(values)) = (found.status, found.solution) else {
                 break;
             };
             record.raise(formulated.program().rounded(found.objective));
-            let rows = formulated.separate(values, 0.02);
-            if rows.is_empty() {
+            let rows = formulated.separate(&values, 0.02);
+            let before = last.as_ref().map_or(f64::NEG_INFINITY, |(_, cost)| *cost);
+            let moved = found.objective > before + PROGRESS * found.objective.abs();
+            idle = if moved { 0 } else { idle + 1 };
+            last = Some((values, found.objective));
+            if rows.is_empty() || idle == IDLE {
                 break;
             }
             rows.into_iter().for_each(|row| formulated.cut(row));
+        }
+        if let Some((values, _)) = last {
+            formulated.drop_idle_cuts(&values);
         }
         Ok(())
     }

@@ -113,39 +113,39 @@ fn push(edges: &mut Vec<Edge>, area: &Area, rim: bool) {
     }
 }
 
-/// The land between two heights, cut where edges cross.
-fn slab(mut bars: Vec<Bar>, mut height: f64, rounding: f64, found: &mut Coverage) {
-    // No more crossings than pairs of edges.
-    let most = bars.len() * bars.len();
-    for _ in 0..=most {
-        bars.sort_by(|a, b| {
-            let bottom = a.bottom.total_cmp(&b.bottom);
-            bottom.then(a.top.total_cmp(&b.top))
-        });
-        // Which neighbours change places first, as a share of the height.
-        let crossing = bars.windows(2).filter_map(|pair| {
-            let (before, after) = (pair[1].bottom - pair[0].bottom, pair[0].top - pair[1].top);
-            (before > rounding && after > rounding).then(|| before / (before + after))
-        });
-        let Some(t) = crossing.min_by(f64::total_cmp) else {
-            break;
-        };
-        let lower: Vec<Bar> = bars
+/// The land between two heights, cut at the heights where edges cross.
+fn slab(mut bars: Vec<Bar>, height: f64, rounding: f64, found: &mut Coverage) {
+    bars.sort_by(|a, b| {
+        let bottom = a.bottom.total_cmp(&b.bottom);
+        bottom.then(a.top.total_cmp(&b.top))
+    });
+    let mut cuts = vec![0.0, 1.0];
+    // All pairs only where some neighbours change places: in a park that is as it
+    // must be, none do.
+    if bars.windows(2).any(|w| w[0].top - w[1].top > rounding) {
+        for (k, a) in bars.iter().enumerate() {
+            for b in &bars[k + 1..] {
+                let (before, after) = (b.bottom - a.bottom, a.top - b.top);
+                if before > rounding && after > rounding {
+                    cuts.push(before / (before + after));
+                }
+            }
+        }
+        cuts.sort_by(f64::total_cmp);
+    }
+    for pair in cuts.windows(2) {
+        let mut part: Vec<Bar> = bars
             .iter()
             .map(|bar| Bar {
-                top: bar.at(t),
+                bottom: bar.at(pair[0]),
+                top: bar.at(pair[1]),
                 ..*bar
             })
             .collect();
-        strips(&lower, t * height, found);
-        for bar in &mut bars {
-            bar.bottom = bar.at(t);
-        }
-        height *= 1.0 - t;
+        // Where they are halfway: edges may meet at both ends.
+        part.sort_by(|a, b| (a.bottom + a.top).total_cmp(&(b.bottom + b.top)));
+        strips(&part, (pair[1] - pair[0]) * height, found);
     }
-    // Edges that part from one point stand in the order that they take.
-    bars.sort_by(|a, b| (a.bottom + a.top).total_cmp(&(b.bottom + b.top)));
-    strips(&bars, height, found);
 }
 
 /// Adds up trapezoids between edges that do not cross.

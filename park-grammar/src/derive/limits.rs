@@ -90,7 +90,7 @@ impl<'w> Limits<'w> {
     /// Looks at the clock once in a while.
     fn tick(&self, rule: &str) -> Result<(), Failure> {
         self.ticks.set(self.ticks.get() + 1);
-        if self.ticks.get() % PATIENCE == 0 {
+        if self.ticks.get().is_multiple_of(PATIENCE) {
             return self.look(rule);
         }
         Ok(())

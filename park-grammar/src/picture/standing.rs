@@ -298,8 +298,8 @@ fn own_picture(kind: &Kind) -> String {
     disc(&kind.colour)
 }
 
-/// The triangles of a mesh that face up, the lowest first, shaded by the way they
-/// face.
+/// The triangles of a mesh that are not upright, the lowest first, shaded by the
+/// way they face.
 fn from_above(kind: &Kind, vertices: &[[f64; 3]], triangles: &[[usize; 3]]) -> String {
     // A mesh's z points south when its x points east.
     let place = |k: usize| {
@@ -317,7 +317,10 @@ fn from_above(kind: &Kind, vertices: &[[f64; 3]], triangles: &[[usize; 3]]) -> S
             u[0] * v[1] - u[1] * v[0],
         ];
         let size = normal.iter().map(|n| n * n).sum::<f64>().sqrt();
-        if size > 0.0 && normal[1] > 0.0 {
+        // Nobody knows how the triangles of a file are wound: all are drawn, and
+        // those below are hidden by those above.
+        let normal = normal.map(|n| n * normal[1].signum());
+        if normal[1] > 1e-9 * size {
             // From the north-west and above.
             let light = (0.8 * normal[1] - 0.42 * normal[0] - 0.42 * normal[2]) / size;
             let top = triangle.map(height).into_iter().sum::<f64>();

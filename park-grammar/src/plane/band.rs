@@ -19,7 +19,7 @@ use std::slice::from_ref;
 
 use geo_types::Coord;
 
-use super::inset::wedge;
+use super::inset::{wedge, STRAIGHT};
 use super::{
     cross, difference, dist, dot, intersection, lerp, right, sides, trim, union, unit, Area,
     Corner, Ring, Segment,
@@ -216,7 +216,7 @@ impl Band {
 
 /// Areas made one where they are many: neighbours first, so that no step meets
 /// many that overlap. Along a fine curve all cells of a deep band do.
-pub(crate) fn merged(mut areas: Vec<Area>) -> Vec<Area> {
+fn merged(mut areas: Vec<Area>) -> Vec<Area> {
     if areas.len() <= FEW {
         return areas;
     }
@@ -283,10 +283,11 @@ impl Shaping<'_> {
             let after = next.or_else(first).filter(|m| m.a == before.b)?;
             let (u, v) = (unit(before.b - before.a), unit(after.b - after.a));
             let turn = cross(u, v).atan2(dot(u, v));
-            (turn > 0.0).then_some(Joint {
+            // Where the boundary goes straight on, rounding could leave a slit.
+            (turn > -STRAIGHT).then_some(Joint {
                 at: after.a,
                 sides: [before.inward, after.inward],
-                turn,
+                turn: turn.max(0.0),
             })
         };
         movers.iter().enumerate().map(joint).collect()

@@ -13,6 +13,9 @@ use super::{cross, difference, dist, dot, lerp, nearest_on, right, sides, unit, 
 /// Arcs turn by this much at each vertex at most, radians.
 const ARC: f64 = std::f64::consts::PI / 18.0;
 
+/// Vertices that turn by less may as well not turn at all, radians.
+pub(super) const STRAIGHT: f64 = 1e-9;
+
 /// A whole number of pieces is one, whatever rounding makes of it.
 const WHOLE: f64 = 1e-6;
 
@@ -64,6 +67,43 @@ pub(crate) fn strip(line: &[Coord<f64>], width: f64, corner: Corner) -> Vec<Area
                 wedge(at, [right(u), right(v)], turn, width, corner),
                 Vec::new(),
             ));
+        }
+    }
+    areas
+}
+
+/// The land within half of `width` of an open line, with mitred corners: areas that
+/// overlap.
+///
+/// A line of many short segments has smooth borders so, where discs at its vertices
+/// would leave notches.
+pub(crate) fn ribbon(line: &[Coord<f64>], width: f64) -> Vec<Area> {
+    let half = 0.5 * width;
+    let mut areas = Vec::new();
+    for pair in line.windows(2) {
+        let aside = right(unit(pair[1] - pair[0])) * half;
+        // With the line's own vertices, which wedges have too.
+        let quad = vec![
+            pair[0] - aside,
+            pair[1] - aside,
+            pair[1],
+            pair[1] + aside,
+            pair[0] + aside,
+            pair[0],
+        ];
+        areas.push(Area::new(quad, Vec::new()));
+    }
+    for joint in line.windows(3) {
+        let (u, v) = (unit(joint[1] - joint[0]), unit(joint[2] - joint[1]));
+        let turn = cross(u, v).atan2(dot(u, v));
+        // Outside of the turn, walked so that it lies on the right; on both sides
+        // where the line goes straight on, lest rounding leave a slit.
+        for (from, to, turn) in [(u, v, turn), (-v, -u, -turn)] {
+            if turn > -STRAIGHT {
+                let sides = [right(from), right(to)];
+                let ring = wedge(joint[1], sides, turn.max(0.0), half, Corner::Mitre);
+                areas.push(Area::new(ring, Vec::new()));
+            }
         }
     }
     areas

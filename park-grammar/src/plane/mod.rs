@@ -17,7 +17,6 @@ mod rest;
 mod route;
 mod sample;
 mod sight;
-mod slice;
 mod smooth;
 mod split;
 mod stroke;
@@ -27,7 +26,7 @@ mod weld;
 
 use geo_types::{Coord, LineString, Polygon};
 
-pub(crate) use band::{inset, merged, Band, Bound, Ends};
+pub(crate) use band::{inset, Band, Bound, Ends};
 pub(crate) use boolean::{difference, intersection, slice, union, FARTHEST};
 pub(crate) use boxes::{
     box_along, named_by, oriented_box, quad_angles, quad_area, quad_coordinates, quad_extent,
@@ -37,17 +36,16 @@ pub(crate) use climb::climb;
 pub(crate) use curve::{curve, Course};
 pub(crate) use erode::erode;
 pub(crate) use farthest::farthest;
-pub(crate) use inset::{inset_lines, keep_apart, strip, Corner, Segment};
+pub(crate) use inset::{inset_lines, keep_apart, ribbon, strip, Corner, Segment};
 pub(crate) use pole::{middle, pole};
 pub(crate) use rest::rest;
 pub(crate) use route::Router;
 pub(crate) use sample::Sampler;
 pub(crate) use sight::{leaves, sees};
-pub(crate) use slice::sliced;
 pub(crate) use smooth::{smooth, Smoothing};
 pub(crate) use split::{clipped, split, Line};
 pub(crate) use stroke::{circle, stroke};
-pub(crate) use trim::trim;
+pub(crate) use trim::{trim, with_vertices};
 pub(crate) use voronoi::{aside, heart, leeway, Border, Diagram, Site};
 pub(crate) use weld::{weld, Weld};
 

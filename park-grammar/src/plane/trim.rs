@@ -2,7 +2,7 @@
 
 use geo_types::Coord;
 
-use super::{cross, dist, dot, Area, Ring};
+use super::{cross, dist, dot, nearest_on, sides, Area, Ring};
 
 /// Hairs are thinner than this, as a share of the size of what was cut.
 const HAIR: f64 = 1e-11;
@@ -26,6 +26,34 @@ pub(crate) fn trim(areas: Vec<Area>, size: f64) -> Vec<Area> {
         })
     });
     trimmed.collect()
+}
+
+/// An area with points as vertices that lie on its edges.
+///
+/// A boolean with a shape that shares parts of edges leaves no hairs along them if
+/// both have the ends of those parts as vertices.
+pub(crate) fn with_vertices(area: &Area, points: &[Coord<f64>]) -> Area {
+    let (low, high) = area.extent();
+    let thin = HAIR * dist(low, high);
+    let ring = |ring: &Ring| {
+        let mut found = Ring::new();
+        for (a, b) in sides(ring) {
+            found.push(a);
+            let along = b - a;
+            let on = |p: &&Coord<f64>| {
+                dist(nearest_on(a, b, **p), **p) <= thin && dist(**p, a).min(dist(**p, b)) > thin
+            };
+            let mut here: Vec<Coord<f64>> = points.iter().filter(on).copied().collect();
+            here.sort_by(|p, q| dot(*p - a, along).total_cmp(&dot(*q - a, along)));
+            found.extend(here);
+        }
+        found.dedup();
+        found
+    };
+    Area {
+        outer: ring(&area.outer),
+        holes: area.holes.iter().map(ring).collect(),
+    }
 }
 
 /// A ring without hairs and without steps thinner than them; `None` if nothing is

@@ -103,6 +103,19 @@ impl Primitive {
         }
     }
 
+    /// Radius of the circle in it; that of a circle itself, though its polygon
+    /// lies within.
+    pub(crate) fn inner_radius(self) -> f64 {
+        match self {
+            Self::Circle(radius) => radius,
+            Self::Romb(radius) => radius * std::f64::consts::FRAC_1_SQRT_2,
+            Self::Polygon(corners, radius) => {
+                radius * (std::f64::consts::PI / corners as f64).cos()
+            }
+            Self::Rectangle(width, height) => 0.5 * width.min(height),
+        }
+    }
+
     /// Radius of the circle around it.
     pub(crate) fn radius(self) -> f64 {
         match self {

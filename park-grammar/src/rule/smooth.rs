@@ -23,7 +23,7 @@ use super::parts::Parts;
 use super::smoothing::Smoother;
 use super::{holes, Arguments, Ask, Output, Partition};
 use crate::error::Failure;
-use crate::plane::{difference, inset, intersection, Area, Ring};
+use crate::plane::{difference, inset, intersection, with_vertices, Area, Ring};
 use crate::select::{Selection, Step};
 use crate::shape::{Region, Role};
 
@@ -60,8 +60,16 @@ pub(crate) fn smooth(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
             vec![smoothed(region, &along, &smoother)]
         }
     };
+    let vertices: Vec<Coord<f64>> = areas
+        .iter()
+        .flat_map(Area::rings)
+        .flatten()
+        .copied()
+        .collect();
+    let land = with_vertices(&region.area, &vertices);
+    let land = std::slice::from_ref(&land);
     let inner = intersection(&areas, land);
-    let rest = difference(land, &inner);
+    let rest = difference(land, &areas);
     let parts = Parts::new(region, "Smooth");
     let inner = parts.regions(inner, Role::Seam);
     if inner.is_empty() {

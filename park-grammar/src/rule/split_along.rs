@@ -13,8 +13,7 @@
 //! * `curve = sinus`: `waves` (1) waves of the `amplitude` (a length or a share of
 //!   the chord, 0.1 unless said), to the left first.
 //!
-//! What begins or ends inside the region, or comes to its boundary from outside, goes
-//! straight on to the boundary ahead. A line
+//! What begins or ends inside the region goes straight on to its boundary. A line
 //! that leaves the region and comes back cuts all that it crosses, so that there may
 //! be several parts on each side. Left and right are those of someone who walks
 //! along the line, in a mirrored region mirrored too. Where a line that crosses
@@ -37,8 +36,8 @@ use super::{holes, Arguments, Ask, Output, Partition};
 use crate::derive::{outputs, Scope};
 use crate::error::Failure;
 use crate::plane::{
-    cross, curve, difference, dist, intersection, lerp, merged, nearest_on, right, sides, slice,
-    stroke, unit, Area, Course,
+    cross, curve, difference, dist, intersection, lerp, nearest_on, ribbon, right, sides, slice,
+    unit, Area, Course,
 };
 use crate::shape::{Region, Role};
 use crate::syntax::ast::{ExprKind, Span};
@@ -207,13 +206,10 @@ fn extended(region: &Region, line: Vec<Coord<f64>>, width: f64) -> Through {
             break;
         };
         let (end, along) = (*end, unit(*end - *before));
-        // On the boundary a line may arrive from inside, or from outside: then it
-        // goes on too.
         let hair = BEYOND * size;
-        let on = region.area.nearest(end).1 <= ON * size;
-        let from = if on { end + along * hair } else { end };
-        let way = if region.area.contains(from) {
-            way_out(&region.area, from, along).unwrap_or(size) + dist(end, from)
+        let inside = region.area.contains(end) && region.area.nearest(end).1 > ON * size;
+        let way = if inside {
+            way_out(&region.area, end, along).unwrap_or(size)
         } else {
             0.0
         };
@@ -221,7 +217,9 @@ fn extended(region: &Region, line: Vec<Coord<f64>>, width: f64) -> Through {
             long.clone_from(&middle);
         }
         middle.push(end + along * (way + hair));
-        // As far again as a path is wide for each unit that it leans.
+        // As far again as a path is wide for each unit that it leans. The end itself
+        // is no vertex of it: the path has no joint there.
+        long.pop();
         long.push(end + along * (way + 2.0 * width + hair));
     }
     Through { middle, long }
@@ -250,17 +248,25 @@ fn cut(region: &Region, line: &Through, width: f64) -> (Vec<Area>, Vec<Area>) {
             Vec::new(),
         );
     }
-    let band = merged(stroke(&line.long, width, false));
-    let mut paths = intersection(land, &band);
-    // Beyond its end a path may have met land that the line does not reach.
+    let band = ribbon(&line.long, width);
     let near = BEYOND * width;
-    paths.retain(|path| {
+    let met = |path: &Area| {
         let pairs = line.middle.windows(2);
         let middles = pairs.map(|pair| lerp(pair[0], pair[1], 0.5));
         let mut points = middles.chain(line.middle.iter().copied());
         points.any(|p| path.contains(p) || path.nearest(p).1 <= near)
-    });
-    (difference(land, &paths), paths)
+    };
+    // Beyond its end a path may have met land that the line does not reach.
+    let (paths, beyond): (Vec<Area>, Vec<Area>) =
+        intersection(land, &band).into_iter().partition(met);
+    // By the path as it goes on beyond the land: of its part inside, rounding would
+    // leave hairs along the boundary, which join what it divides.
+    let cover = if beyond.is_empty() {
+        band
+    } else {
+        difference(&band, &beyond)
+    };
+    (difference(land, &cover), paths)
 }
 
 /// Whether a part lies to the left of a line, by its edges that border on it.

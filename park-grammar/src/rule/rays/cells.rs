@@ -30,19 +30,34 @@ const BEYOND: f64 = 2.0;
 
 /// The land of a path in an area: of what its width covers the part that can be
 /// walked to, not that behind a fence. It is round where it begins, at bends, and
-/// at an end that does not go on over the boundary.
-pub(super) fn land(path: &Path, width: f64, area: &Area, size: f64) -> Vec<Area> {
+/// at an end that does not go on over the boundary; but not in `covered` centres,
+/// whose shapes are as wide.
+pub(super) fn land(
+    path: &Path,
+    width: f64,
+    area: &Area,
+    size: f64,
+    covered: &dyn Fn(usize) -> bool,
+) -> Vec<Area> {
     let line = extended(path, BEYOND * width);
-    let mut covered = Vec::new();
+    let mut found = Vec::new();
     for pair in line.windows(2) {
-        covered.extend(stroke(pair, width, false));
+        found.extend(stroke(pair, width, false));
     }
     let inner = line.len() - usize::from(path.leaves);
     for k in 0..inner {
+        let centre = match k {
+            0 => path.centres[0],
+            _ if k + 1 == line.len() => path.centres[1],
+            _ => None,
+        };
+        if centre.is_some_and(covered) {
+            continue;
+        }
         let way = line[(k + 1).min(line.len() - 1)] - line[k.saturating_sub(1)];
-        covered.push(disc(line[k], 0.5 * width, unit(way)));
+        found.push(disc(line[k], 0.5 * width, unit(way)));
     }
-    let mut found = intersection(&covered, std::slice::from_ref(area));
+    let mut found = intersection(&found, std::slice::from_ref(area));
     if found.len() > 1 {
         let near = ON * size;
         let middles: Vec<Coord<f64>> = path

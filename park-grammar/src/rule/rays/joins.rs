@@ -318,12 +318,11 @@ mod tests {
             for join in [Join::Loop, Join::Open, Join::Pairs] {
                 let links = links(join, &at);
                 // An odd one may have to cross, if it is walled in by pairs.
-                if join != Join::Pairs || count % 2 == 0 {
+                if join != Join::Pairs || count.is_multiple_of(2) {
                     let apart = |k: usize| links[..k].iter().all(|&l| !crossing(&at, l, links[k]));
                     assert!((0..links.len()).all(apart), "{join:?} {seed}");
                 }
                 let degrees = degrees(count, &links);
-                let count = count as usize;
                 match join {
                     Join::Loop if count > 2 => assert!(degrees.iter().all(|d| *d == 2)),
                     Join::Open if count > 2 => assert_eq!(links.len(), count - 1),

@@ -50,7 +50,7 @@ use super::{Arguments, Ask, Output, Partition, Primitive};
 use crate::derive::{outputs, Scope, Spot, Stream, Watch};
 use crate::error::Failure;
 use crate::plane::{
-    difference, dist, intersection, lerp, oriented_box, rest, sliced, union, weld, Area, Diagram,
+    difference, dist, intersection, lerp, oriented_box, rest, slice, union, weld, Area, Diagram,
     Site,
 };
 use crate::shape::{Heritage, Region, Role};
@@ -226,8 +226,12 @@ fn between(
 ) -> Vec<Area> {
     let mut taken: Vec<Area> = lands.iter().flatten().cloned().collect();
     if asked.width > 0.0 {
+        let covered = |centre: usize| {
+            let shape = asked.shapes[centre];
+            shape.is_some_and(|shape| shape.inner_radius() >= 0.5 * asked.width)
+        };
         for path in paths {
-            taken.extend(land(path, asked.width, area, size));
+            taken.extend(land(path, asked.width, area, size, &covered));
         }
     }
     // Strokes that lie on each other but for the last digits have no end of
@@ -248,7 +252,7 @@ fn between(
         .iter()
         .map(|path| extended(path, BEYOND * size))
         .collect();
-    sliced(&left, &lines)
+    left.iter().flat_map(|area| slice(area, &lines)).collect()
 }
 
 /// Centres whose Voronoi cells meet in the frame of the region: its Delaunay

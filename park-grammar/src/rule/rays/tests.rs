@@ -165,6 +165,10 @@ proptest! {
             let [a, b] = path.centres.map(|c| c.expect("a join has two"));
             reached.join(a, b);
         }
+        let radii: Vec<f64> = asked.shapes.iter().map(|s| s.map_or(0.0, Primitive::radius)).collect();
+        for [a, b] in touching(&region, &asked, &radii) {
+            reached.join(a, b);
+        }
         for k in 0..spots.len() {
             let group = reached.of(k);
             let mut rays = paths.iter().filter(is_ray);

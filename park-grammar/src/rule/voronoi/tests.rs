@@ -150,7 +150,7 @@ proptest! {
     /// of two places is their bisector.
     #[test]
     fn paths_have_their_width(
-        corners in proptest::collection::vec(0.0..6.28_f64, 3..12),
+        corners in proptest::collection::vec(0.0..std::f64::consts::TAU, 3..12),
         at in places(),
         width in 0.5..6.0_f64,
         probes in proptest::collection::vec((-80.0..80.0_f64, -80.0..80.0_f64), 60),
