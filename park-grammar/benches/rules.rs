@@ -6,7 +6,7 @@ use std::hint::black_box;
 
 use criterion::{criterion_group, criterion_main, Criterion};
 use park_grammar::geo_types::{Coord, Polygon};
-use park_grammar::{DeriveOptions, Grammar, Scene};
+use park_grammar::{grammars, DeriveOptions, Grammar, Scene};
 
 fn read(rules: &str) -> Grammar {
     Grammar::new(&format!("grammar 1\n{rules}")).expect("a grammar")
@@ -109,6 +109,69 @@ fn placing(c: &mut Criterion) {
     group(c, "sweep", &bay(180.0), &rules);
 }
 
+/// The other rules that divide, each on a concave outline of 40 vertices.
+fn dividing(c: &mut Criterion) {
+    let park = bay(60.0);
+    let rules = [
+        ("peel_all", "Region -> Peel(ALL, 4 m) { ShrubBed | Lawn }"),
+        (
+            "peel_side",
+            "Region -> Peel(EDGE[0], 4 m) { ShrubBed | Lawn }",
+        ),
+        (
+            "peel_smooth",
+            "Region -> Peel(ALL, 4 m, smooth = round, radius = 5) { ShrubBed | Lawn }",
+        ),
+        ("contract", "Region -> Contract(4 m) { Lawn | ShrubBed }"),
+        (
+            "contract_centre",
+            "Region -> Contract(0.4, CENTRE) { Lawn | ShrubBed }",
+        ),
+        (
+            "rings",
+            "Region -> Rings(10, 20, 30) { Meadow } { Gravel } { Lawn }",
+        ),
+        (
+            "smooth",
+            "Region -> Smooth(round, radius = 6) { Lawn | ShrubBed }",
+        ),
+        (
+            "split_along",
+            "Region -> SplitAlong(WEST, EAST, curve = sinus, waves = 3) { Meadow | Lawn | Gravel }",
+        ),
+        (
+            "split_holes",
+            "Region -> Peel(ALL, 4 m, SplitHoles) { ShrubBed | Lawn }",
+        ),
+        ("fit_rectangle", "Region -> FitRectangle { Sand | Lawn }"),
+    ];
+    group(c, "divide", &park, &rules);
+    let rules = [
+        ("20_places", "Region -> VoronoiRegions(ScatterCircles(20 {2})) { Meadow } { Gravel }"),
+        ("20_places_straight", "Region -> VoronoiRegions(ScatterCircles(20 {2}), none) { Meadow } { Gravel }"),
+        ("500_places", "Region -> VoronoiRegions(ScatterCircles(500 {0.6}), width = 0.5) { Meadow } { Gravel }"),
+    ];
+    group(c, "voronoi", &park, &rules);
+    let rules = [
+        ("corners", "Region -> CastRays(CENTRE, Corners(Region)) { Meadow } { Gravel } { Circle(5) Paving }"),
+        ("12_centres", "Region -> CastRays(ScatterCircles(12 {3}), Corners(Region), join = delaunay) { Meadow } { Gravel } { Circle(2) Paving }"),
+        ("36_directions", "Region -> CastRays(CENTRE, 36) { Meadow } { Gravel }"),
+    ];
+    group(c, "rays", &park, &rules);
+}
+
+/// Whole parks, by the grammars of the library.
+fn library(c: &mut Criterion) {
+    let mut group = c.benchmark_group("library");
+    group.sample_size(10);
+    let park = bay(60.0);
+    for named in &grammars::ALL {
+        let grammar = named.grammar().expect("a grammar");
+        group.bench_function(named.name, |b| b.iter(|| derive(&grammar, &park)));
+    }
+    group.finish();
+}
+
 fn selecting(c: &mut Criterion) {
     let selectors = [
         ("edge_index", "EDGE[0]"),
@@ -157,5 +220,5 @@ fn fits(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, grid, fits, placing, selecting);
+criterion_group!(benches, grid, fits, dividing, placing, selecting, library);
 criterion_main!(benches);

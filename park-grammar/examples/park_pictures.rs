@@ -1,5 +1,5 @@
-//! Draws the pictures of the guide's pages about parks, from the examples in
-//! their texts.
+//! Draws the pictures of the guide's pages about parks and that of the crate's
+//! front page, from the examples in their texts.
 //!
 //! `cargo run -p park-grammar --example park_pictures`
 
@@ -7,10 +7,11 @@
 mod guide;
 
 use std::error::Error;
+use std::path::Path;
 
 use guide::{folder, samples, PAGES};
 use park_grammar::picture::PictureOptions;
-use park_grammar::Scene;
+use park_grammar::{DeriveOptions, Grammar, Scene};
 
 /// Around a park, centimetres.
 const MARGIN: f64 = 100.0;
@@ -25,13 +26,23 @@ fn main() -> Result<(), Box<dyn Error>> {
             if sample.fault.is_some() {
                 continue;
             }
-            let place = format!("{page}:{} {}", sample.line, sample.name);
+            let place = format!("{}:{} {}", sample.page, sample.line, sample.name);
             let scene = sample.derive().map_err(|e| format!("{place}: {e}"))?;
             let file = images.join(format!("{}.svg", sample.name));
             std::fs::write(&file, picture(&scene))?;
             println!("{}", file.display());
         }
     }
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = std::fs::read_to_string(root.join("README.md"))?;
+    let rules = page
+        .split_once("Grammar::new(\"")
+        .and_then(|(_, rest)| rest.split_once("\")?;"));
+    let (rules, _) = rules.ok_or("the front page has no grammar")?;
+    let park = guide::outline("large").ok_or("there is no such outline")?;
+    let scene = Grammar::new(rules)?.derive(&park, &DeriveOptions::default())?;
+    std::fs::create_dir_all(root.join("images"))?;
+    std::fs::write(root.join("images/square.svg"), picture(&scene))?;
     Ok(())
 }
 

@@ -131,3 +131,23 @@ fn unknown_parameters_are_named() {
         "{error}"
     );
 }
+
+/// Found among changed grammars: a strip that was wider than the world made a
+/// boolean panic.
+#[test]
+fn nothing_is_wider_than_the_world() {
+    for rules in [
+        "Region -> Sweep(ALL, 1e300) { Hedge }",
+        "Region -> Sweep(ALL: 1e300, 1) { Hedge }",
+        "Region -> Grid({1e300}, 2) { Lawn }",
+        "Region -> Place((1e300, 0.5)) { Circle(1e300) Sand }",
+        "Region -> Sweep([(0, 0), (1e300, 1)], 2) { Hedge }",
+        "Region -> CastRays((0.5, 0.5), 5, width = 1e300) { Lawn }",
+        "param A = Object(radius = 1, spread = 1e300)\nRegion -> Scatter(3) { A }",
+    ] {
+        let found = grammar(rules).derive(&square(80.0), &DeriveOptions::default());
+        assert!(!matches!(found, Err(ParkError::Limit { .. })), "{rules}");
+    }
+    let found = grammar("Region -> Lawn").derive(&square(1e12), &DeriveOptions::default());
+    assert!(matches!(found, Err(ParkError::Outline { .. })));
+}

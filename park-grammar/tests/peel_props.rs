@@ -168,7 +168,7 @@ proptest! {
         by in (-1e3..1e3_f64, -1e3..1e3_f64),
     ) {
         // Drawn anew for another seed, not for another place.
-        let strip = if flags.contains("smooth") { "Meadow" } else { "Peel(PB, 0.15) { Meadow | Soil }" };
+        let strip = if flags.contains("smooth") { "Meadow" } else { "Peel(PB, 0.4 m) { Meadow | Soil }" };
         let rules = format!("Region -> Peel(OUTER, {size}{flags}) {{ Strip | Sand }}\nStrip -> {strip}");
         let motion = Motion { angle, mirror, by: Coord { x: by.0, y: by.1 } };
         // How a hole without corners is cut goes by the region's own axes.
@@ -196,6 +196,6 @@ proptest! {
         let half = Motion { angle: std::f64::consts::PI, mirror: true, by: Coord { x: 0.0, y: height } };
         is_image(&scene, &scene, half, 1e-6)?;
         let count = scene.objects.len();
-        prop_assert!(count % 4 == 0, "{count}");
+        prop_assert!(count.is_multiple_of(4), "{count}");
     }
 }

@@ -207,3 +207,14 @@ fn faults_are_told() {
     let scene = derive("Region -> VoronoiRegions((3, 3)) { Meadow } else { Sand }");
     assert_eq!(of(&scene, "Sand").len(), 1);
 }
+
+/// Of several places at one point one counts, and those outside do not.
+#[test]
+fn places_count_once() {
+    let rules = "Region -> VoronoiRegions([(0.5, 0.5), (0.2, 0.5), (0.5, 0.5), (1, 1)], none) { Meadow } {}";
+    assert_eq!(derive(rules).pieces.len(), 3);
+    let l = polygon![(x: 0., y: 0.), (x: 40., y: 0.), (x: 40., y: 20.), (x: 20., y: 20.), (x: 20., y: 40.), (x: 0., y: 40.)];
+    let rules =
+        "Region -> VoronoiRegions([(0.2, 0.2), (0.9, 0.9), (0.2, 0.9)], none) { Meadow } {}";
+    assert_eq!(park(&l, rules, 0).expect("derives").pieces.len(), 2);
+}

@@ -26,6 +26,9 @@ pub(crate) type Places = BTreeMap<String, Value>;
 /// Deepest calls of functions within each other.
 const DEEPEST: usize = 64;
 
+/// No length is greater, metres.
+const LONGEST: f64 = 1e7;
+
 /// What an expression is evaluated for.
 pub(crate) struct Scope<'s> {
     pub(crate) grammar: &'s Grammar,
@@ -359,13 +362,20 @@ impl<'s> Scope<'s> {
         };
         let [low, high] = bounds.map(&to);
         let (low, high) = (low.ok_or_else(wrong)?, high.ok_or_else(wrong)?);
+        if low.abs().max(high.abs()) > LONGEST {
+            return Err(Failure::fault(expr.span, "this is more than 10,000,000"));
+        }
         Ok([low.min(high), low.max(high)])
     }
 
     pub(crate) fn metres(&mut self, expr: &Expr) -> Result<f64, Failure> {
         let number = self.number(expr)?;
         let wrong = || Failure::fault(expr.span, "a length was expected");
-        number.metres().ok_or_else(wrong)
+        let metres = number.metres().ok_or_else(wrong)?;
+        if metres.abs() > LONGEST {
+            return Err(Failure::fault(expr.span, "this is longer than 10,000 km"));
+        }
+        Ok(metres)
     }
 
     pub(crate) fn whole(&mut self, expr: &Expr) -> Result<i64, Failure> {

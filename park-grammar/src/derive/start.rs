@@ -92,6 +92,11 @@ fn outline(park: &Polygon<f64>) -> Result<Area, ParkError> {
     {
         return Err(bad("a coordinate is not finite"));
     }
+    let far = |x: f64| x.abs() > crate::plane::FARTHEST;
+    let rings = std::iter::once(park.exterior()).chain(park.interiors());
+    if rings.flat_map(|ring| &ring.0).any(|c| far(c.x) || far(c.y)) {
+        return Err(bad("it lies a million kilometres away or more"));
+    }
     // Whatever the order of its rings, and without what overlaps.
     let mut areas = crate::plane::union(&[Area::from_polygon(park)]);
     areas.sort_by(|a, b| b.size().total_cmp(&a.size()));

@@ -33,7 +33,7 @@ pub(crate) fn union(a: &[Area]) -> Vec<Area> {
 pub(crate) fn slice(area: &Area, lines: &[Vec<Coord<f64>>]) -> Vec<Area> {
     let lines: Vec<Vec<[f64; 2]>> = lines
         .iter()
-        .map(|line| line.iter().map(|c| [c.x, c.y]).collect())
+        .map(|line| line.iter().map(within).collect())
         .collect();
     let mut options = OverlayOptions::default();
     options.preserve_output_collinear = true;
@@ -47,8 +47,22 @@ pub(crate) fn slice(area: &Area, lines: &[Vec<Coord<f64>>]) -> Vec<Area> {
 }
 
 fn shape(area: &Area) -> Vec<Vec<[f64; 2]>> {
-    let ring = |ring: &Ring| ring.iter().map(|c| [c.x, c.y]).collect();
+    let ring = |ring: &Ring| ring.iter().map(within).collect();
     area.rings().map(ring).collect()
+}
+
+/// Coordinates beyond this, metres, are as good as this: a hedge may be wider than
+/// the world, but i_overlay has no integers for that, and panics.
+pub(crate) const FARTHEST: f64 = 1e9;
+
+fn within(at: &Coord<f64>) -> [f64; 2] {
+    [at.x, at.y].map(|x| {
+        if x.is_nan() {
+            0.0
+        } else {
+            x.clamp(-FARTHEST, FARTHEST)
+        }
+    })
 }
 
 fn overlay(a: &[Area], b: &[Area], rule: OverlayRule) -> Vec<Area> {

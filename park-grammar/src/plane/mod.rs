@@ -27,7 +27,7 @@ mod weld;
 use geo_types::{Coord, LineString, Polygon};
 
 pub(crate) use band::{inset, Band, Bound, Ends};
-pub(crate) use boolean::{difference, intersection, slice, union};
+pub(crate) use boolean::{difference, intersection, slice, union, FARTHEST};
 pub(crate) use boxes::{
     box_along, named_by, oriented_box, quad_angles, quad_area, quad_coordinates, quad_extent,
     quad_is_convex, quad_point,

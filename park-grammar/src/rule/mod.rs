@@ -279,6 +279,29 @@ pub(crate) fn names() -> impl Iterator<Item = &'static str> {
 mod tests {
     use super::*;
 
+    /// The guide has every word of the language, on one of its two pages.
+    #[test]
+    fn every_word_stands_in_the_guide() {
+        let guide = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/src");
+        let pages = ["park-language.md", "park-rules.md"];
+        let read = |page: &&str| std::fs::read_to_string(guide.join(page)).ok();
+        let text: String = pages.iter().filter_map(read).collect();
+        if text.is_empty() {
+            // The guide is not a part of the package.
+            return;
+        }
+        let said: std::collections::BTreeSet<&str> = text
+            .split(|c: char| !(c.is_alphanumeric() || c == '_'))
+            .collect();
+        let known = names()
+            .chain(WORDS.iter().copied())
+            .chain(crate::select::NAMES)
+            .chain(crate::select::CALLS)
+            .chain(crate::derive::ATTRIBUTES);
+        let missing: Vec<&str> = known.filter(|word| !said.contains(word)).collect();
+        assert!(missing.is_empty(), "the guide leaves out {missing:?}");
+    }
+
     /// Flags are capitalised words, modes are in lower case, places in capitals.
     #[test]
     fn words_tell_what_they_are() {

@@ -149,7 +149,9 @@ proptest! {
     ) {
         let region = region(&outline, Motion::NONE);
         let spots = spots(&region, &at, Motion::NONE);
-        prop_assume!(!spots.is_empty());
+        if spots.is_empty() {
+            return Ok(());
+        }
         let mut asked = asked(spots.clone(), corners(&outline, Motion::NONE), rays, join, width);
         asked.shapes = vec![shape; spots.len()];
         asked.output = shape.is_some();
@@ -201,7 +203,9 @@ proptest! {
     ) {
         let region = region(&outline, Motion::NONE);
         let spots = spots(&region, &at, Motion::NONE);
-        prop_assume!(!spots.is_empty());
+        if spots.is_empty() {
+            return Ok(());
+        }
         let targets = if directions == 0 {
             corners(&outline, Motion::NONE)
         } else {

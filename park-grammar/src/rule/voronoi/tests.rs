@@ -133,7 +133,9 @@ proptest! {
     ) {
         let region = region(&outline, Motion::NONE);
         let spots = spots(&region, &at, Motion::NONE);
-        prop_assume!(!spots.is_empty());
+        if spots.is_empty() {
+            return Ok(());
+        }
         let asked = asked(spots.clone(), 0.0, amplitude, &region);
         let partition = divide(&region, &asked, &mut Stream::new(seed)).expect("has cells");
         is_exact(&region, &partition)?;
@@ -158,11 +160,15 @@ proptest! {
         let mut angles = corners;
         angles.sort_by(f64::total_cmp);
         angles.dedup_by(|a, b| (*a - *b).abs() < 0.1);
-        prop_assume!(angles.len() > 2);
+        if angles.len() < 3 {
+            return Ok(());
+        }
         let ring: Vec<Coord<f64>> = angles.iter().map(|a| coord! { x: 80.0 * a.cos(), y: 80.0 * a.sin() }).collect();
         let region = region(&(ring, false), Motion::NONE);
         let spots = spots(&region, &at, Motion::NONE);
-        prop_assume!(!spots.is_empty());
+        if spots.is_empty() {
+            return Ok(());
+        }
         let asked = asked(spots.clone(), width, 0.0, &region);
         let Some(partition) = divide(&region, &asked, &mut Stream::new(0)) else { return Ok(()) };
         is_exact(&region, &partition)?;
