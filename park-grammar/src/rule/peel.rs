@@ -35,7 +35,7 @@
 //! twice the depth unless given.
 //!
 //! **Holes.** A strip all round is a ring with a hole. With the flag `SplitHoles`
-//! it is cut at its corners (see [`holes`](super::holes)).
+//! it is cut at its corners (see [`holes`]).
 //!
 //! **Memory.** In the strip, what was selected is `PEELED_BASE`, the border to the
 //! rest `PEELED_INNER`, and with the short edges at the ends `PEELED_SEGMENT`; in
