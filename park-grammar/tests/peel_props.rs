@@ -196,6 +196,6 @@ proptest! {
         let half = Motion { angle: std::f64::consts::PI, mirror: true, by: Coord { x: 0.0, y: height } };
         is_image(&scene, &scene, half, 1e-6)?;
         let count = scene.objects.len();
-        prop_assert!(count % 4 == 0, "{count}");
+        prop_assert!(count.is_multiple_of(4), "{count}");
     }
 }
