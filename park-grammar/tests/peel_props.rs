@@ -168,7 +168,7 @@ proptest! {
         by in (-1e3..1e3_f64, -1e3..1e3_f64),
     ) {
         // Drawn anew for another seed, not for another place.
-        let strip = if flags.contains("smooth") { "Meadow" } else { "Peel(PB, 0.15) { Meadow | Soil }" };
+        let strip = if flags.contains("smooth") { "Meadow" } else { "Peel(PB, 0.4 m) { Meadow | Soil }" };
         let rules = format!("Region -> Peel(OUTER, {size}{flags}) {{ Strip | Sand }}\nStrip -> {strip}");
         let motion = Motion { angle, mirror, by: Coord { x: by.0, y: by.1 } };
         // How a hole without corners is cut goes by the region's own axes.

@@ -7,7 +7,10 @@ use park_grammar::ParkError;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use common::{clearance, config, has_no_hairs, is_tiled, outline, park, stairs, within};
+use common::{
+    clearance, config, has_no_hairs, is_image, is_tiled, outline, park, rectangle, stairs, within,
+    Motion,
+};
 
 fn centres() -> impl Strategy<Value = String> {
     let by_hand = vec((0.0..1.0_f64, 0.0..1.0_f64), 1..7).prop_map(|all| {
@@ -130,5 +133,32 @@ proptest! {
             let on = scene.pieces.iter().find(|p| within(&p.polygon, object.at));
             prop_assert!(on.is_some_and(|piece| piece.material == "Sand"));
         }
+    }
+}
+
+proptest! {
+    #![proptest_config(config(32, 2_000))]
+
+    /// In cells of a grid that are mirror images paths are mirrored, and what goes by
+    /// their sides and coordinates with them.
+    #[test]
+    fn mirrored_cells_are_mirrored(
+        width in 60.0..140.0_f64,
+        height in 60.0..140.0_f64,
+        a in (0.1..0.9_f64, 0.1..0.9_f64),
+        b in (0.1..0.9_f64, 0.1..0.9_f64),
+        rays in prop_oneof![Just("nearest"), Just("unconnected"), Just("all")],
+    ) {
+        prop_assume!((a.0 - b.0).hypot(a.1 - b.1) > 0.1);
+        let places = format!("[({}, {}), ({}, {})]", a.0, a.1, b.0, b.1);
+        let rules = format!("Region -> Grid(2, 2) {{ Quarter }} {{ Paving }}
+            Quarter -> CastRays({places}, Corners(Region), rays = {rays}, width = 1) {{ Cell }} {{ Gravel }}
+            Cell -> Meadow Place(EDGE[0]: 0.3, EDGE[1]: 0.3, EDGE[-1]: 0.2, CORNER[0]) {{ Lamp }} Place((0.7, 0.6)) {{ Bush }}");
+        let scene = park(&rectangle(width, height), &rules, 3).expect("derives");
+        let upright = Motion { angle: 0.0, mirror: true, by: Coord { x: width, y: 0.0 } };
+        is_image(&scene, &scene, upright, 1e-5)?;
+        // Mirrored and turned by half a turn: upside down.
+        let half = Motion { angle: std::f64::consts::PI, mirror: true, by: Coord { x: 0.0, y: height } };
+        is_image(&scene, &scene, half, 1e-5)?;
     }
 }

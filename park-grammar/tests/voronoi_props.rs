@@ -7,7 +7,10 @@ use park_grammar::ParkError;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use common::{config, has_no_hairs, is_tiled, outline, park, size, stairs, within};
+use common::{
+    config, has_no_hairs, is_image, is_tiled, outline, park, rectangle, size, stairs, within,
+    Motion,
+};
 
 fn points() -> impl Strategy<Value = String> {
     let by_hand = vec((0.0..1.0_f64, 0.0..1.0_f64), 1..20).prop_map(|all| {
@@ -130,5 +133,32 @@ proptest! {
             };
             prop_assert!(!path(&sharp) || path(&smooth), "{p:?}");
         }
+    }
+}
+
+proptest! {
+    #![proptest_config(config(32, 2_000))]
+
+    /// In cells of a grid that are mirror images regions are mirrored, and what goes by
+    /// their sides and coordinates with them.
+    #[test]
+    fn mirrored_cells_are_mirrored(
+        width in 60.0..140.0_f64,
+        height in 60.0..140.0_f64,
+        a in (0.1..0.9_f64, 0.1..0.9_f64),
+        b in (0.1..0.9_f64, 0.1..0.9_f64),
+        smoothing in prop_oneof![Just("none"), Just("average"), Just("round")],
+    ) {
+        prop_assume!((a.0 - b.0).hypot(a.1 - b.1) > 0.1);
+        let places = format!("[({}, {}), ({}, {})]", a.0, a.1, b.0, b.1);
+        let rules = format!("Region -> Grid(2, 2) {{ Quarter }} {{ Paving }}
+            Quarter -> VoronoiRegions({places}, {smoothing}, width = 1) {{ Cell }} {{ Gravel }}
+            Cell -> Meadow Place(EDGE[0]: 0.3, EDGE[1]: 0.3, EDGE[-1]: 0.2, CORNER[0]) {{ Lamp }} Place((0.7, 0.6)) {{ Bush }}");
+        let scene = park(&rectangle(width, height), &rules, 3).expect("derives");
+        let upright = Motion { angle: 0.0, mirror: true, by: Coord { x: width, y: 0.0 } };
+        is_image(&scene, &scene, upright, 1e-5)?;
+        // Mirrored and turned by half a turn: upside down.
+        let half = Motion { angle: std::f64::consts::PI, mirror: true, by: Coord { x: 0.0, y: height } };
+        is_image(&scene, &scene, half, 1e-5)?;
     }
 }

@@ -35,6 +35,9 @@ const TINY: f64 = 1e-9;
 /// So many areas may overlap.
 const FEW: usize = 16;
 
+/// A cell and the wedge beside it, and the next cell.
+const OVERLAP: usize = 3;
+
 /// Corners this near to a right angle, by the cosine, are right.
 const RIGHT: f64 = 1e-6;
 
@@ -216,18 +219,28 @@ impl Band {
 
 /// Areas made one where they are many: neighbours first, so that no step meets
 /// many that overlap. Along a fine curve all cells of a deep band do.
-fn merged(mut areas: Vec<Area>) -> Vec<Area> {
-    if areas.len() <= FEW {
+fn merged(areas: Vec<Area>) -> Vec<Area> {
+    let n = areas.len();
+    if n <= FEW {
         return areas;
     }
-    while areas.len() > FEW {
-        let before = areas.len();
-        areas = areas.chunks(FEW).flat_map(union).collect();
-        if areas.len() == before {
+    // Each group has the first of the next one too: what only touches may come out
+    // with a slit between.
+    let group = |start: usize| {
+        let end = (start + FEW).min(n);
+        let next = (end..end + OVERLAP).map(|k| &areas[k % n]);
+        let group: Vec<Area> = areas[start..end].iter().chain(next).cloned().collect();
+        union(&group)
+    };
+    let mut merged: Vec<Area> = (0..n).step_by(FEW).flat_map(group).collect();
+    while merged.len() > FEW {
+        let before = merged.len();
+        merged = merged.chunks(FEW).flat_map(union).collect();
+        if merged.len() == before {
             break;
         }
     }
-    union(&areas)
+    union(&merged)
 }
 
 /// A corner of more than half a turn between two movers.

@@ -9,10 +9,10 @@ use super::{cross, dist, dot, lerp, nearest_on, right, sides, unit, Area, Segmen
 const FINEST: f64 = 2e-3;
 
 /// Cells looked at, at most: long strips have as good places all along.
-const CELLS: usize = 20_000;
+const CELLS: usize = 6_000;
 
 /// Candidates of the search that are climbed from.
-const CANDIDATES: usize = 24;
+const CANDIDATES: usize = 12;
 
 /// Rounds of climbing at most.
 const ROUNDS: usize = 40;
@@ -27,7 +27,8 @@ const ACTIVE: usize = 10;
 /// [`middle`](super::middle); then the best are climbed from: a distance to a
 /// segment is convex, so that its tangent lies below it, and the best point under
 /// all tangents (a linear programme of two variables) is better in truth. What is
-/// found is exact up to rounding, and moves and turns with the area.
+/// found is exact up to rounding, unless there are many places as good to within
+/// [`FINEST`], as in a long strip: then it may be less by that share.
 pub(crate) fn farthest(area: &Area, from: &[Segment]) -> (Coord<f64>, f64) {
     let away = |p: Coord<f64>| {
         let far = from.iter().map(|&(a, b)| dist(nearest_on(a, b, p), p));
@@ -40,7 +41,7 @@ pub(crate) fn farthest(area: &Area, from: &[Segment]) -> (Coord<f64>, f64) {
     if area.contains(centroid) {
         found.push((centroid, away(centroid)));
     }
-    found.extend(area.outer.iter().map(|&p| (p, away(p))));
+    found.extend(area.rings().flatten().map(|&p| (p, away(p))));
     let mut most = found.iter().map(|f| f.1).fold(0.0, f64::max);
     let mut count = 0;
     // Middle and half of the side.

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use urban_layout::io::{self, svg::SvgOptions};
+use urban_layout::layout::TileKind;
 use urban_layout::metrics::{metrics, Metrics};
 use urban_layout::{generate, Plan, Result};
 
@@ -39,6 +40,9 @@ pub(crate) fn run(job: &Generate) -> Result<u8> {
         for warning in plan.warnings() {
             eprintln!("warning: {warning}");
         }
+        if let Some(plain) = plain_parks(job, &plan) {
+            eprintln!("warning: {plain}");
+        }
         let m = figures_of(&plan, read, began);
         files.extend(files_of(job, &plan, &m, &job.out.join(&folder))?);
         cards.push((
@@ -72,6 +76,24 @@ pub(crate) fn run(job: &Generate) -> Result<u8> {
         println!("written to {}", job.out.display());
     }
     Ok(0)
+}
+
+/// What to say where a grammar that was asked for suits some parks only.
+fn plain_parks(job: &Generate, plan: &Plan) -> Option<String> {
+    if matches!(job.park_grammar.as_str(), "auto" | "none") {
+        return None;
+    }
+    let parks = plan.layout.tiles_of(TileKind::Park);
+    let (all, designed) = (
+        parks.filter(|tile| !tile.given).count(),
+        plan.layout.parks.len(),
+    );
+    (designed < all).then(|| {
+        format!(
+            "{} suits {designed} of {all} parks; the others stay plain",
+            job.park_grammar
+        )
+    })
 }
 
 fn figures_of(plan: &Plan, read: f64, began: Instant) -> Metrics {
