@@ -17,8 +17,8 @@
 //! program before it looks is not symmetric. And branches on single edges come
 //! to the same networks over and over, in one corner after the other.
 //!
-//! Q is what is nearer, in edges, to one vertex than to all of its images: with
-//! the corner of a square a quarter of it. Symmetries are found by refinement:
+//! Q is what is nearer, in edges, to one vertex than to all of its images, and one
+//! of the images of what is as near: with the corner of a square a quarter of it. Symmetries are found by refinement:
 //! vertices get the colours of their neighbours until nothing changes, once with
 //! one vertex marked and once with another; where all colours are different there
 //! is one candidate, and it is checked. Else a second vertex is marked.
@@ -32,9 +32,9 @@ use crate::design::{Network, Problem};
 /// Symmetries, the identity included, from which on none are looked for; a
 /// square has eight.
 const MANY: usize = 16;
-/// Edges of a problem from which on no symmetries are looked for: no program of
-/// that size is solved to proof.
-const LARGE: usize = 1_500;
+/// Edges of a problem from which on no symmetries are looked for: the search takes
+/// some tenths of a second then, and no program of that size is solved to proof.
+const LARGE: usize = 800;
 
 /// The symmetries of a problem, and the part of it that they are told apart by.
 #[derive(Clone, Debug)]
@@ -96,11 +96,9 @@ impl Symmetries {
         let edges: Option<Vec<Vec<usize>>> = (vertices.iter())
             .map(|symmetry| looked_at.edges(symmetry))
             .collect();
-        let part = looked_at.part(&vertices)?;
-        Some(Self {
-            edges: edges?,
-            part,
-        })
+        let edges = edges?;
+        let part = looked_at.part(&vertices, &edges)?;
+        Some(Self { edges, part })
     }
 
     /// The image with most active edges in the part; the network itself, or the
@@ -273,9 +271,10 @@ impl<'p> Looked<'p> {
         to.collect()
     }
 
-    /// The edges that are nearer to one vertex than to all its images: of those
-    /// vertices that every symmetry moves, one that has most of them.
-    fn part(&self, symmetries: &[Vec<usize>]) -> Option<Vec<usize>> {
+    /// The edges that are nearer to one vertex than to all its images, and of
+    /// those as near to one of these one image: of the vertices that every symmetry
+    /// moves, one that has most of them.
+    fn part(&self, symmetries: &[Vec<usize>], edges: &[Vec<usize>]) -> Option<Vec<usize>> {
         let mut best: Vec<usize> = Vec::new();
         let mut seen = BTreeSet::new();
         for v in 0..self.problem.vertices {
@@ -288,11 +287,18 @@ impl<'p> Looked<'p> {
             seen.insert(v);
             let own = self.hops(&[v]);
             let others = self.hops(&images.into_iter().collect::<Vec<_>>());
-            let near = |&e: &usize| {
-                let [a, b] = self.problem.ends[e];
-                own[a] + own[b] < others[a] + others[b]
-            };
-            let part: Vec<usize> = (0..self.problem.edges()).filter(near).collect();
+            let mut part = Vec::new();
+            let mut told = vec![false; self.problem.edges()];
+            for (e, &[a, b]) in self.problem.ends.iter().enumerate() {
+                let images: BTreeSet<usize> = edges.iter().map(|edges| edges[e]).collect();
+                let all_differ = images.len() == edges.len() && !images.contains(&e);
+                // Of edges as near to two of the vertices one of the images.
+                if all_differ && !told[e] && own[a] + own[b] <= others[a] + others[b] {
+                    part.push(e);
+                    told[e] = true;
+                    images.into_iter().for_each(|e| told[e] = true);
+                }
+            }
             if part.len() > best.len() {
                 best = part;
             }
