@@ -4,7 +4,7 @@
 //! `activity` (1), `dead_ends` (2), `coverage` (3), `patterns` (4, 5), `balls`
 //! (6), `flow` (7), `travel` (8), `single_sink` (9), `routes`, `rooms` (15 to
 //! 17, 20 and 21), `parents` and `room_balls` (22 to 25), `detours` (26, 27), `sinks`
-//! (28), `connections` (29), and `paper`, the formulation of Peng et al. 2016 as they wrote it. With
+//! (28), `connections` (29), `symmetry` (30), and `paper`, the formulation of Peng et al. 2016 as they wrote it. With
 //! one-way streets `arcs` (10 to 12) and `one_way` (13, 14) take the place of
 //! `flow` and `travel`; these two have numbers of their own.
 
@@ -29,6 +29,7 @@ mod rooms;
 mod routes;
 mod single_sink;
 mod sinks;
+mod symmetry;
 mod travel;
 
 use crate::design::{Heading, Network, Problem, Streets};
@@ -161,6 +162,7 @@ pub struct Formulated<'p> {
     detours: Option<Detours>,
     connections: Option<Connections>,
     families: Vec<Family>,
+    symmetries: Option<symmetry::Symmetries>,
     /// Rows before those that were added by [`Formulated::cut`].
     own_rows: usize,
     contradicts: bool,
@@ -331,6 +333,7 @@ impl<'p> Formulated<'p> {
             detours,
             connections: connections.flatten(),
             families,
+            symmetries: None,
             own_rows,
             contradicts: draft.contradicts,
             longest,
@@ -489,9 +492,7 @@ impl<'p> Formulated<'p> {
         self.program.row(row.low, row.high, row.terms);
     }
 
-    /// Drops the rows that were added and that a solution of the relaxation does
-    /// not need, where there may be connection cuts among them, of which many
-    /// are in the way of others that come later.
+    /// Drops added rows that a solution does not need, of connection cuts.
     pub(crate) fn drop_idle_cuts(&mut self, values: &[f64]) {
         if self.connections.is_some() && self.room_balls.is_none() {
             self.program.drop_idle_rows(self.own_rows, values);

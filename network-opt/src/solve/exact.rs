@@ -53,6 +53,11 @@ pub struct Exact<M> {
     ///
     /// Default value: all of them.
     pub cuts: Cuts,
+    /// Whether programs of problems with symmetries, such as squares that look
+    /// the same from all sides, know of one of all images of a network only.
+    ///
+    /// Default value: `true`.
+    pub symmetry: bool,
 }
 
 impl<M> Exact<M> {
@@ -63,6 +68,7 @@ impl<M> Exact<M> {
             formulation: Formulation::Recommended,
             rounds: 12,
             cuts: Cuts::all(),
+            symmetry: true,
         }
     }
 }
@@ -114,6 +120,7 @@ impl<M: MipSolver> Exact<M> {
             return Ok(record.outcome(Ended::Infeasible));
         }
         self.tighten(&mut formulated, limits, &mut record)?;
+        self.order(&mut formulated);
         let left = record.left(limits);
         let run = self.run(&formulated, &left, &mut record, Until::Proof)?;
         Ok(record.outcome(run.ended()))
@@ -179,6 +186,7 @@ impl<M: MipSolver> Exact<M> {
             return Ok(record.outcome(Ended::Infeasible));
         }
         self.tighten(&mut flow, limits, &mut record)?;
+        self.order(&mut flow);
         let left = record.left(limits);
         let run = self.run(&flow, &left, &mut record, Until::Proof)?;
         let best = record.best.as_ref().map(|(_, cost)| cost.objective);
@@ -188,6 +196,7 @@ impl<M: MipSolver> Exact<M> {
         let longest = (formulation == Formulation::SingleSink).then(|| longest_ways(problem, high));
         let mut travel = Formulated::with_cuts(problem, formulation, longest, self.cuts)?;
         travel.limit_length(record.bound - 1e-6, high);
+        self.order(&mut travel);
         let left = record.left(limits);
         let run = self.run(&travel, &left, &mut record, Until::Proof)?;
         Ok(record.outcome(run.ended()))
@@ -211,6 +220,14 @@ impl<M: MipSolver> Exact<M> {
         }
         let left = record.left(limits);
         Ok(self.run(&formulated, &left, record, Until::First)?.ended())
+    }
+
+    /// Leaves one of all images of a network. Relaxations are no better for it, so
+    /// it comes after them.
+    fn order(&self, formulated: &mut Formulated<'_>) {
+        if self.symmetry {
+            formulated.order_images();
+        }
     }
 
     /// Adds cuts that solutions of the relaxation violate, in rounds, and takes
@@ -286,7 +303,7 @@ impl<M: MipSolver> Exact<M> {
         let start = record
             .best
             .as_ref()
-            .map(|(network, _)| formulated.solution(network));
+            .map(|(network, _)| formulated.solution(&formulated.image(network)));
         let program = formulated.program();
         let mut enough = false;
         let found = self.solver.solve(
@@ -310,7 +327,9 @@ impl<M: MipSolver> Exact<M> {
                     return MipReply::Stop;
                 }
                 match (received, &record.best) {
-                    (true, Some((network, _))) => MipReply::Try(formulated.solution(network)),
+                    (true, Some((network, _))) => {
+                        MipReply::Try(formulated.solution(&formulated.image(network)))
+                    }
                     _ => MipReply::GoOn,
                 }
             },
