@@ -33,7 +33,13 @@ fn selection() -> impl Strategy<Value = String> {
 
 fn size_of() -> impl Strategy<Value = String> {
     prop_oneof![
-        3 => (0.02..0.98_f64).prop_map(|s| format!("{s}")),
+        1 => (0.02..0.98_f64).prop_map(|s| format!("{s}")),
+        1 => metres(),
+    ]
+}
+
+fn metres() -> impl Strategy<Value = String> {
+    prop_oneof![
         2 => (0.5..12.0_f64).prop_map(|s| format!("{s} m")),
         1 => Just("[1 m, 3 m]".to_owned()),
     ]
@@ -157,11 +163,12 @@ proptest! {
         prop_assert!(error.is_err_and(|e| e.to_string().contains("leaves nothing")));
     }
 
-    /// Moves, turns and mirrors with its region, where the selection does.
+    /// Moves, turns and mirrors with its region, where the selection does; in metres,
+    /// since what share 1 is may be less by a search's 0.2 % in long strips.
     #[test]
     fn peels_move_with_the_region(
         outline in any_outline(),
-        size in size_of(),
+        size in metres(),
         flags in flags(),
         angle in -3.2..3.2_f64,
         mirror in any::<bool>(),

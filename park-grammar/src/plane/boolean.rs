@@ -3,7 +3,7 @@
 use geo_types::Coord;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
-use i_overlay::core::solver::Solver;
+use i_overlay::core::solver::{Precision, Solver};
 use i_overlay::float::overlay::{FloatOverlay, OverlayOptions};
 use i_overlay::float::slice::FloatSlice;
 
@@ -12,6 +12,23 @@ use super::{Area, Ring};
 /// Smaller pieces, as a share of the square of the size of the operands, are
 /// rounding along shared edges.
 const SLIVER: f64 = 1e-13;
+
+/// How near to an end an edge may pass before it is led through it: 2^12 of the
+/// integers' units at first, twice as far in each round.
+///
+/// Coordinates have 53 bits, i_overlay's integers 60. With its own precision, one
+/// unit at first, edges that coincide but for the last bits of their coordinates
+/// cross each other in ever more points, round by round, before ends that differ by
+/// rounding alone are taken for the same: minutes, and all memory, for a strip
+/// that was peeled twice. 2^12 units are 4e-15 of the operands' size.
+const PRECISION: Precision = Precision {
+    start: 24,
+    progression: 2,
+};
+
+fn solver() -> Solver {
+    Solver::with_precision(PRECISION)
+}
 
 /// What lies in any of `a` and in none of `b`.
 pub(crate) fn difference(a: &[Area], b: &[Area]) -> Vec<Area> {
@@ -37,12 +54,8 @@ pub(crate) fn slice(area: &Area, lines: &[Vec<Coord<f64>>]) -> Vec<Area> {
         .collect();
     let mut options = OverlayOptions::default();
     options.preserve_output_collinear = true;
-    let found = vec![shape(area)].slice_custom_by_as::<i64>(
-        &lines,
-        FillRule::NonZero,
-        options,
-        Solver::default(),
-    );
+    let found =
+        vec![shape(area)].slice_custom_by_as::<i64>(&lines, FillRule::NonZero, options, solver());
     areas(&found, std::slice::from_ref(area))
 }
 
@@ -71,13 +84,8 @@ fn overlay(a: &[Area], b: &[Area], rule: OverlayRule) -> Vec<Area> {
     let run = |mut options: OverlayOptions<f64, i64>| {
         // A vertex that several regions share stays one of each.
         options.preserve_output_collinear = true;
-        FloatOverlay::<[f64; 2], i64>::from_subj_and_clip_custom(
-            &subject,
-            &clip,
-            options,
-            Solver::default(),
-        )
-        .overlay(rule, FillRule::NonZero)
+        FloatOverlay::<[f64; 2], i64>::from_subj_and_clip_custom(&subject, &clip, options, solver())
+            .overlay(rule, FillRule::NonZero)
     };
     let plain = run(OverlayOptions::default());
     // Rings that touch themselves are taken apart, as polygons must be. Where holes

@@ -12,7 +12,7 @@ const FINEST: f64 = 2e-3;
 const CELLS: usize = 6_000;
 
 /// Candidates of the search that are climbed from.
-const CANDIDATES: usize = 12;
+const CANDIDATES: usize = 48;
 
 /// Rounds of climbing at most.
 const ROUNDS: usize = 40;

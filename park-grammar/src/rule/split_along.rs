@@ -250,11 +250,19 @@ fn cut(region: &Region, line: &Through, width: f64) -> (Vec<Area>, Vec<Area>) {
     }
     let band = ribbon(&line.long, width);
     let near = BEYOND * width;
+    // Whether the line runs in it: has a point there, or comes in at one of its edges.
     let met = |path: &Area| {
-        let pairs = line.middle.windows(2);
-        let middles = pairs.map(|pair| lerp(pair[0], pair[1], 0.5));
-        let mut points = middles.chain(line.middle.iter().copied());
-        points.any(|p| path.contains(p) || path.nearest(p).1 <= near)
+        let mut points = line.middle.iter();
+        points.any(|&p| path.contains(p) || path.nearest(p).1 <= near)
+            || line.middle.windows(2).any(|pair| {
+                let way = pair[1] - pair[0];
+                let mut edges = path.rings().flat_map(|ring| sides(ring));
+                edges.any(|(a, b)| {
+                    let [u, v] = [a, b].map(|x| cross(way, x - pair[0]));
+                    let [p, q] = [pair[0], pair[1]].map(|x| cross(b - a, x - a));
+                    u * v < 0.0 && p * q < 0.0
+                })
+            })
     };
     // Beyond its end a path may have met land that the line does not reach.
     let (paths, beyond): (Vec<Area>, Vec<Area>) =
