@@ -152,6 +152,7 @@ fn derived(outline: &Polygon<f64>, rules: &str) -> Result<Option<Scene>, TestCas
                 "paths meet",
                 "no part of these",
                 "does not divide",
+                "no such place",
                 "one and the same",
                 "nothing",
             ];

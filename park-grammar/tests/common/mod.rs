@@ -11,7 +11,13 @@ use proptest::prelude::*;
 /// Few cases, or with `URBAN_LAYOUT_LONG` many.
 pub fn config(few: u32, many: u32) -> ProptestConfig {
     let long = std::env::var_os("URBAN_LAYOUT_LONG").is_some();
-    ProptestConfig::with_cases(if long { many } else { few })
+    let cases = if long { many } else { few };
+    ProptestConfig {
+        cases,
+        // Some laws hold for a part of what is drawn only.
+        max_global_rejects: 20 * cases,
+        ..ProptestConfig::default()
+    }
 }
 
 pub fn park(outline: &Polygon<f64>, rules: &str, seed: u64) -> Result<Scene, ParkError> {
