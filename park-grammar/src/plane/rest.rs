@@ -1,6 +1,6 @@
 //! What pieces leave of an area, so that all together tile it.
 
-use super::{difference, weld, Area};
+use super::{difference, dist, trim, weld, Area};
 
 /// Vertices this near, as a share of the area's size, are one.
 const SAME: f64 = 1e-9;
@@ -24,13 +24,14 @@ pub(crate) fn rest(whole: &Area, pieces: Vec<Area>) -> (Vec<Area>, Vec<Area>) {
     // Areas too small for the tolerance have gone.
     if welded.len() == all.len() {
         let outline = welded.remove(0);
-        let left = difference(&[outline], &welded);
+        // A piece that touches the outline in a point may leave a hair there.
+        let left = trim(difference(&[outline], &welded), dist(low, high));
         if (total(&left) + total(&welded) - must).abs() <= ROUNDING * must {
             return (welded, left);
         }
     }
     let left = difference(std::slice::from_ref(whole), &pieces);
-    (pieces, left)
+    (pieces, trim(left, dist(low, high)))
 }
 
 #[cfg(test)]
