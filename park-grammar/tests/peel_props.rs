@@ -192,6 +192,43 @@ proptest! {
         }
     }
 
+    /// Sides are the same wherever a region lies, those that end within an edge too.
+    #[test]
+    fn peels_of_sides_move_with_the_region(
+        outline in outline(),
+        side in prop_oneof![Just("WEST"), Just("NORTH"), Just("EDGE[1]"), Just("Part(ALL, [0.1, 0.63])")],
+        size in metres(),
+        by in (-1e3..1e3_f64, -1e3..1e3_f64),
+    ) {
+        let rules = format!("Region -> Peel({side}, {size}) {{ Meadow | Sand }}");
+        let motion = Motion { angle: 0.0, mirror: false, by: Coord { x: by.0, y: by.1 } };
+        match (derived(&outline, &rules, 0)?, derived(&motion.polygon(&outline), &rules, 0)?) {
+            (Some(here), Some(there)) => is_image(&here, &there, motion, 1e-6)?,
+            (here, there) => prop_assert_eq!(here.is_none(), there.is_none()),
+        }
+    }
+
+    /// What was peeled is one strip wherever it lies, so that what is peeled of it, and
+    /// of what was left, moves and turns too.
+    #[test]
+    fn peels_of_peels_move_with_the_region(
+        outline in any_outline(),
+        size in 0.5..6.0_f64,
+        (strip, by_what) in prop_oneof![
+            Just((true, "PB")), Just((true, "PI")), Just((true, "PS")), Just((false, "PI")), Just((false, "PS"))
+        ],
+        angle in -3.2..3.2_f64,
+        by in (-1e3..1e3_f64, -1e3..1e3_f64),
+    ) {
+        let outputs = if strip { "Again | Sand" } else { "Sand | Again" };
+        let rules = format!("Region -> Peel(OUTER, {size} m) {{ {outputs} }}\nAgain -> Peel({by_what}, 0.4 m) {{ Meadow | Soil }}");
+        let motion = Motion { angle, mirror: false, by: Coord { x: by.0, y: by.1 } };
+        match (derived(&outline, &rules, 0)?, derived(&motion.polygon(&outline), &rules, 0)?) {
+            (Some(here), Some(there)) => is_image(&here, &there, motion, 1e-6)?,
+            (here, there) => prop_assert_eq!(here.is_none(), there.is_none()),
+        }
+    }
+
     /// In the cells of a grid peels are mirrored with their cells.
     #[test]
     fn peels_of_mirrored_cells_are_mirror_images(

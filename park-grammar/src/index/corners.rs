@@ -52,8 +52,12 @@ pub(super) fn corners(ring: &Ring, thresholds: &Thresholds) -> Vec<usize> {
     kept
 }
 
+/// Vertices are as near as each other if they differ by less, as a share of the
+/// line that is given up.
+const TIE: f64 = 1e-9;
+
 /// The vertex from `first` to `last` that is nearest to where the lines beside
-/// them meet.
+/// them meet; of several the one that turns most, so that no rounding decides.
 fn merged(ring: &Ring, [a, b, c, d]: [Coord<f64>; 4], first: usize, last: usize) -> usize {
     let n = ring.len();
     let meeting = Line::new(a, b - a)
@@ -62,8 +66,14 @@ fn merged(ring: &Ring, [a, b, c, d]: [Coord<f64>; 4], first: usize, last: usize)
         .filter(|&p| dist(p, b) < 10.0 * dist(b, c))
         .unwrap_or((b + c) / 2.0);
     let count = (last + n - first) % n;
-    (0..=count)
-        .map(|k| (first + k) % n)
-        .min_by(|&i, &j| dist(ring[i], meeting).total_cmp(&dist(ring[j], meeting)))
+    let away = |k: usize| dist(ring[k], meeting);
+    let turn = |k: usize| {
+        let [u, v] = [ring[k] - ring[(k + n - 1) % n], ring[(k + 1) % n] - ring[k]];
+        cross(u, v).atan2(dot(u, v)).abs()
+    };
+    let between = || (0..=count).map(|k| (first + k) % n);
+    let least = between().map(away).fold(f64::INFINITY, f64::min);
+    let tied = between().filter(|&k| away(k) <= least + TIE * dist(b, c));
+    tied.max_by(|&i, &j| turn(i).total_cmp(&turn(j)))
         .unwrap_or(first)
 }

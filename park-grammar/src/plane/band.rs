@@ -322,7 +322,9 @@ impl Shaping<'_> {
         let neighbour = unit(if start { p - q } else { q - p });
         let outward = unit(mover.b - mover.a) * if start { -1.0 } else { 1.0 };
         let (lean, down) = (dot(neighbour, outward), dot(neighbour, mover.inward));
-        if down > 0.0 {
+        // A selection that ends within an edge has that itself as neighbour, whichever
+        // way rounding turns it.
+        if down > TINY {
             // As right angles come out by rounding, the neighbour is the end.
             let square = lean.abs() < RIGHT;
             let follows = !joint && self.ends == Ends::Follow && lean > 0.0;
@@ -483,6 +485,15 @@ mod tests {
         near(sizes(south(), 2.0, Ends::Follow), (36.0, 39.0));
         near(sizes(south(), 2.0, Ends::Square), (36.0, 39.0));
         near(sizes(north(), 5.0, Ends::Follow), (75.0, 0.0));
+    }
+
+    /// So is one within an edge, whichever way rounding bends that.
+    #[test]
+    fn ends_within_an_edge_are_square() {
+        for off in [-1e-15, 0.0, 1e-15] {
+            let bent = [(0., 0.), (0., 10.), (5., 10. + off), (10., 10.), (10., 0.)];
+            near(sizes(ring(&bent, &[1]), 2.0, Ends::Follow), (10.0, 90.0));
+        }
     }
 
     /// An end whose neighbour leads far away is square.

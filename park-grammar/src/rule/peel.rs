@@ -276,11 +276,8 @@ fn once(region: &Region, selection: &Selection, depth: f64, way: Way) -> [Vec<Re
     let least = SLIVER * region.area.size();
     rest = trim(rest, size(region));
     rest.retain(|area| area.size() > least);
-    let mut strip = if way.smoother.is_some() {
-        difference(land, &rest)
-    } else {
-        intersection(land, &band.cover)
-    };
+    // Not by the band, whose cells meet in edges that would be slits up to rounding.
+    let mut strip = difference(land, &rest);
     strip = trim(strip, size(region));
     strip.retain(|area| area.size() > least);
 
