@@ -2,33 +2,16 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod common;
+
 use std::time::{Duration, Instant};
 
+use common::{config, grid};
 use network_opt::design::{
     cost, verify, EdgeState, Network, Pattern, PatternKind, Placement, Problem, Rooms, Route,
-    Tessellation,
 };
-use network_opt::geo_types::coord;
 use network_opt::solve::{Ended, Limits, NetworkSolver, Outcome, Search};
 use proptest::prelude::*;
-
-/// Few cases by default; many with `URBAN_LAYOUT_LONG=1`.
-fn config(cases: u32) -> ProptestConfig {
-    let long = std::env::var_os("URBAN_LAYOUT_LONG").is_some_and(|v| v == "1");
-    ProptestConfig::with_cases(if long { cases * 20 } else { cases })
-}
-
-fn grid(columns: usize, rows: usize) -> Tessellation {
-    let wide = columns + 1;
-    let points = (0..wide * (rows + 1))
-        .map(|k| coord! { x: (k % wide) as f64, y: (k / wide) as f64 })
-        .collect();
-    let faces = (0..columns * rows).map(|k| {
-        let a = k / columns * wide + k % columns;
-        vec![a, a + 1, a + wide + 1, a + wide]
-    });
-    Tessellation::new(points, faces.collect()).unwrap()
-}
 
 /// Streets on a grid with everything that a problem may contain.
 fn streets(columns: usize, rows: usize) -> impl Strategy<Value = Problem> {

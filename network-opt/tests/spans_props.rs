@@ -3,24 +3,20 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-mod spans;
+mod common;
 
+use common::brute::{all_valid, choices, open_edges, renamed};
+use common::programs::{agrees, no_row_cuts_off, same, solved, CLOSE};
+use common::{config, grid, search};
 use network_opt::design::{
-    cost_of, paths_between, verify, EdgeState, Network, PathOptions, Pattern, PatternKind,
-    PlacedSinks, Problem, Route, RouteKind, Tessellation,
+    cost_of, paths_between, verify, EdgeState, PathOptions, Pattern, PatternKind, PlacedSinks,
+    Problem, Route, RouteKind, Tessellation,
 };
-use network_opt::formulate::{longest_ways, prepare, Fate, Formulated, Formulation};
-use network_opt::mip::{Microlp, MipReply, MipSolver, MipStatus};
-use network_opt::solve::{Ended, Exact, Limits, NetworkSolver};
+use network_opt::mip::Microlp;
+use network_opt::solve::Ended;
 use proptest::prelude::*;
 use proptest::sample::subsequence;
-use spans::{config, grid, search};
 
-/// Solvers hold rows to a millionth; sums here have some tens of terms of size
-/// one to ten.
-const CLOSE: f64 = 1e-4;
-
-/// What random problems are made of.
 #[derive(Clone, Debug)]
 struct Recipe {
     size: (usize, usize),
@@ -76,7 +72,7 @@ fn recipe() -> impl Strategy<Value = Recipe> {
 
 impl Recipe {
     fn mesh(&self) -> Tessellation {
-        grid(self.size.0, self.size.1, &|_| true)
+        grid(self.size.0, self.size.1)
     }
 
     fn problem(&self) -> Problem {
@@ -155,85 +151,11 @@ impl Recipe {
     }
 }
 
-/// All choices of sinks: one empty choice if none is to be placed.
-fn choices(problem: &Problem) -> Vec<Vec<usize>> {
-    let Some(placed) = &problem.placed else {
-        return vec![Vec::new()];
-    };
-    let all = 0_u32..1 << placed.candidates.len();
-    let chosen = all.filter(|set| set.count_ones() as usize == placed.count);
-    let choice = chosen.map(|set| {
-        let all = placed.candidates.iter().enumerate();
-        let mut chosen: Vec<usize> = all
-            .filter(|(k, _)| set >> k & 1 == 1)
-            .map(|(_, &v)| v)
-            .collect();
-        chosen.sort_unstable();
-        chosen
-    });
-    choice.collect()
-}
-
-fn open_edges(problem: &Problem) -> usize {
-    let open = problem.states.iter().filter(|s| **s == EdgeState::Open);
-    open.count()
-}
-
-/// All valid networks.
-fn all_valid(problem: &Problem) -> Vec<Network> {
-    let open: Vec<usize> = (0..problem.edges())
-        .filter(|&e| problem.states[e] == EdgeState::Open)
-        .collect();
-    let mut found = Vec::new();
-    for set in 0_u32..1 << open.len() {
-        let mut active: Vec<bool> = (problem.states.iter())
-            .map(|s| matches!(s, EdgeState::Given | EdgeState::Required))
-            .collect();
-        for (k, &e) in open.iter().enumerate() {
-            active[e] = set >> k & 1 == 1;
-        }
-        for sinks in choices(problem) {
-            let network = Network {
-                active: active.clone(),
-                sinks,
-                ..Network::default()
-            };
-            if verify(problem, &network).is_empty() {
-                found.push(network);
-            }
-        }
-    }
-    found
-}
-
 fn least(problem: &Problem) -> Option<f64> {
     let costs = all_valid(problem).into_iter();
     costs
         .map(|n| cost_of(problem, &n).objective)
         .min_by(f64::total_cmp)
-}
-
-const PROGRAMS: [Formulation; 4] = [
-    Formulation::Flow,
-    Formulation::TravelFlow,
-    Formulation::SingleSink,
-    Formulation::Paper,
-];
-
-/// What a program says that a network costs.
-fn priced(problem: &Problem, formulation: Formulation, network: &Network) -> f64 {
-    let cost = cost_of(problem, network);
-    match formulation {
-        Formulation::Flow => problem.length_weight * cost.length + cost.patterns + cost.routes,
-        _ => cost.objective,
-    }
-}
-
-/// The paper's distances are the true ones only of edges of length 1.
-fn comparable(problem: &Problem, formulation: Formulation) -> bool {
-    formulation != Formulation::Paper
-        || problem.travel_weight == 0.0
-        || problem.lengths.iter().all(|&l| l == 1.0)
 }
 
 proptest! {
@@ -245,75 +167,7 @@ proptest! {
     fn no_program_cuts_off_a_valid_network(recipe in recipe()) {
         let problem = recipe.problem();
         prop_assume!(open_edges(&problem) <= 11);
-        let fates = prepare(&problem);
-        let valid = all_valid(&problem);
-        let costs = valid.iter().map(|n| cost_of(&problem, n).objective);
-        let worst = costs.fold(0.0, f64::max);
-        for formulation in PROGRAMS {
-            let longest = longest_ways(&problem, worst);
-            let formulated = Formulated::new(&problem, formulation, Some(longest)).unwrap();
-            prop_assert!(valid.is_empty() || !formulated.contradicts());
-            for network in &valid {
-                for (e, &fate) in fates.iter().enumerate() {
-                    prop_assert!(fate == Fate::Open || (fate == Fate::On) == network.active[e]);
-                }
-                let values = formulated.solution(network);
-                let violation = formulated.program().violation(&values);
-                prop_assert!(violation < CLOSE, "{formulation:?} by {violation}");
-                prop_assert_eq!(&formulated.network(&values), network);
-                if comparable(&problem, formulation) {
-                    let said = formulated.program().objective(&values);
-                    let is = priced(&problem, formulation, network);
-                    prop_assert!((said - is).abs() < CLOSE, "{formulation:?}: {said} for {is}");
-                    let step = formulated.program().step();
-                    prop_assert!(step == 0.0 || (is / step - (is / step).round()).abs() < 1e-6);
-                }
-            }
-        }
-    }
-}
-
-/// The network of least cost by a program; none if there is none.
-fn optimum(problem: &Problem, formulation: Formulation) -> Option<f64> {
-    let formulated = Formulated::new(problem, formulation, None).unwrap();
-    if formulated.contradicts() {
-        return None;
-    }
-    let limits = Limits {
-        deadline: None,
-        ..Limits::default()
-    };
-    let found = Microlp
-        .solve(formulated.program(), None, &limits, &mut |_| MipReply::GoOn)
-        .unwrap();
-    if found.status == MipStatus::Infeasible {
-        return None;
-    }
-    assert_eq!(found.status, MipStatus::Optimal);
-    let network = formulated.network(&found.solution.unwrap());
-    assert_eq!(verify(problem, &network), [], "{formulation:?}");
-    Some(found.objective)
-}
-
-fn exact(problem: &Problem) -> Option<f64> {
-    let limits = Limits {
-        deadline: None,
-        ..Limits::default()
-    };
-    let found = Exact::new(Microlp)
-        .solve(problem, None, &limits, &mut |_| true)
-        .unwrap();
-    match found.ended {
-        Ended::Proven => Some(found.cost.objective),
-        Ended::Infeasible => None,
-        other => panic!("{other:?} without a limit"),
-    }
-}
-
-fn same(a: Option<f64>, b: Option<f64>) -> bool {
-    match (a, b) {
-        (Some(a), Some(b)) => (a - b).abs() < 1e-3,
-        (a, b) => a == b,
+        no_row_cuts_off(&problem, &all_valid(&problem))?;
     }
 }
 
@@ -325,17 +179,8 @@ proptest! {
     fn programs_agree_with_trying_all(recipe in recipe()) {
         let problem = recipe.problem();
         prop_assume!(open_edges(&problem) <= 9);
-        let valid = all_valid(&problem);
-        for formulation in PROGRAMS {
-            let costs = valid.iter().map(|n| priced(&problem, formulation, n));
-            let (best, found) = (costs.min_by(f64::total_cmp), optimum(&problem, formulation));
-            if comparable(&problem, formulation) {
-                prop_assert!(same(best, found), "{formulation:?}: {found:?}, not {best:?}");
-            } else {
-                prop_assert_eq!(best.is_some(), found.is_some());
-            }
-        }
-        prop_assert!(same(least(&problem), exact(&problem)));
+        agrees(&problem, &Microlp)?;
+        prop_assert!(same(least(&problem), solved(&problem)));
     }
 
     /// The search finds the optimum of tiny problems, and nothing that is not
@@ -376,7 +221,7 @@ proptest! {
         prop_assume!(open_edges(&problem) <= 9);
         let mut more = recipe;
         more.routes.push((a, b, tolerance, cost));
-        let (before, after) = (exact(&problem), exact(&more.problem()));
+        let (before, after) = (solved(&problem), solved(&more.problem()));
         match (before, after) {
             (None, after) => prop_assert_eq!(after, None),
             (Some(before), Some(after)) => {
@@ -394,9 +239,9 @@ proptest! {
     fn placed_sinks_are_no_worse_than_any_choice(recipe in recipe()) {
         let problem = Recipe { count: recipe.count.max(1), ..recipe }.problem();
         prop_assume!(open_edges(&problem) <= 9);
-        let placed = exact(&problem);
+        let placed = solved(&problem);
         let all = choices(&problem).into_iter();
-        let best = all.filter_map(|sinks| exact(&problem.settled(&sinks)));
+        let best = all.filter_map(|sinks| solved(&problem.settled(&sinks)));
         let best = best.min_by(f64::total_cmp);
         prop_assert!(same(best, placed), "{placed:?}, not {best:?}");
     }
@@ -412,28 +257,8 @@ proptest! {
     ) {
         let problem = recipe.problem();
         prop_assume!(open_edges(&problem) <= 9);
-        let mut other = problem.clone();
-        let rename = |list: &mut Vec<usize>, to: &[usize]| list.iter_mut().for_each(|k| *k = to[*k]);
-        for (e, &to) in edges.iter().enumerate() {
-            other.ends[to] = problem.ends[e].map(|v| vertices[v]);
-            other.lengths[to] = problem.lengths[e];
-            other.states[to] = problem.states[e];
-        }
-        for (v, &to) in vertices.iter().enumerate() {
-            other.sinks[to] = problem.sinks[v];
-        }
-        other.coverage.iter_mut().for_each(|ball| rename(ball, &vertices));
-        rename(&mut other.required_vertices, &vertices);
-        for p in &mut other.patterns {
-            rename(&mut p.active, &edges);
-        }
-        for path in other.routes.iter_mut().flat_map(|r| &mut r.paths) {
-            rename(path, &edges);
-        }
-        if let Some(placed) = &mut other.placed {
-            rename(&mut placed.candidates, &vertices);
-        }
-        let (a, b) = (exact(&problem), exact(&other));
+        let other = renamed(&problem, &vertices, &edges);
+        let (a, b) = (solved(&problem), solved(&other));
         prop_assert!(same(a, b), "{a:?} and {b:?}");
     }
 }

@@ -2,7 +2,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use network_opt::design::{verify, Coverage, Feature, Problem, Specification, Tessellation};
+mod common;
+
+use common::{config, grid};
+use network_opt::design::{verify, Coverage, Feature, Problem, Specification};
 use network_opt::geo_types::{coord, Coord};
 use network_opt::solve::{Limits, NetworkSolver, Stochastic};
 use network_opt::traffic::sumo::{is_installed, SumoFiles, SumoOptions};
@@ -11,12 +14,6 @@ use network_opt::traffic::{
     StreetGraph, Traffic, TrafficError,
 };
 use proptest::prelude::*;
-
-/// Few cases by default; many with `URBAN_LAYOUT_LONG=1`.
-fn config(cases: u32) -> ProptestConfig {
-    let long = std::env::var_os("URBAN_LAYOUT_LONG").is_some_and(|v| v == "1");
-    ProptestConfig::with_cases(if long { cases * 20 } else { cases })
-}
 
 /// A tree of two-way streets, so that all is connected, with more streets of
 /// either kind; lengths are no round numbers, so that no two ways are equal.
@@ -443,18 +440,6 @@ fn problems() -> impl Strategy<Value = Problem> {
                 spec.on(&grid(wide, high)).unwrap()
             },
         )
-}
-
-fn grid(columns: usize, rows: usize) -> Tessellation {
-    let wide = columns + 1;
-    let points = (0..wide * (rows + 1))
-        .map(|k| coord! { x: (k % wide) as f64, y: (k / wide) as f64 })
-        .collect();
-    let faces = (0..columns * rows).map(|k| {
-        let a = k / columns * wide + k % columns;
-        vec![a, a + 1, a + wide + 1, a + wide]
-    });
-    Tessellation::new(points, faces.collect()).unwrap()
 }
 
 proptest! {

@@ -2,10 +2,11 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-mod spans;
+mod common;
 
 use std::collections::BTreeSet;
 
+use common::{config, grid, part_of_grid, search};
 use network_opt::design::{
     check_partition, partition, paths_between, verify, Across, Among, Feature, Inside, Pairs,
     Parts, PathOptions, Place, PlacedSinks, Problem, Rim, Route, RouteKind, Sinks, Specification,
@@ -14,7 +15,6 @@ use network_opt::design::{
 use network_opt::mip::Microlp;
 use network_opt::solve::{conflicts, Constraints, Limits, Outcome};
 use proptest::prelude::*;
-use spans::{config, grid, search};
 
 /// All simple paths of at most so many edges, by extending every walk.
 fn every_path(
@@ -58,7 +58,7 @@ proptest! {
         seed in any::<u64>(),
     ) {
         prop_assume!((0..size.0 * size.1).any(|f| !gone[f]));
-        let mesh = grid(size.0, size.1, &|f| !gone[f]);
+        let mesh = part_of_grid(size.0, size.1, &|f| !gone[f]);
         let faces = mesh.faces().len();
         match partition(&mesh, count, seed) {
             Ok(parts) => {
@@ -84,7 +84,7 @@ proptest! {
         most in 1_usize..40,
         seed in any::<u64>(),
     ) {
-        let mesh = grid(size.0, size.1, &|_| true);
+        let mesh = grid(size.0, size.1);
         let n = mesh.points().len();
         let (a, b) = (ends.0 % n, ends.1 % n);
         let open: Vec<bool> = (0..mesh.edges().len()).map(|e| !closed[e]).collect();
@@ -110,7 +110,7 @@ proptest! {
 }
 
 fn town(traffic: Traffic, sinks: Sinks) -> (Tessellation, Problem) {
-    let mesh = grid(10, 10, &|_| true);
+    let mesh = grid(10, 10);
     let spec = Specification {
         travel: 0.2,
         traffic,
@@ -210,7 +210,7 @@ fn spans_and_sinks_do_what_they_are_for() {
 
 #[test]
 fn new_families_are_named_in_conflicts() {
-    let mesh = grid(4, 2, &|_| true);
+    let mesh = grid(4, 2);
     // The middle column is an obstacle, so nothing leads from side to side.
     let spec = Specification {
         rim: Rim::Open,
@@ -258,7 +258,7 @@ fn new_families_are_named_in_conflicts() {
 
 #[test]
 fn specifications_that_do_not_fit_say_why() {
-    let mesh = grid(6, 6, &|_| true);
+    let mesh = grid(6, 6);
     let with = |traffic: Traffic, sinks: Sinks| {
         let spec = Specification {
             traffic,

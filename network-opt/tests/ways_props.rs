@@ -1,190 +1,23 @@
-//! Laws of one-way streets and speeds: the programs, the search and the checker
-//! against trying all networks with all directions, and what must not change.
+//! Laws of one-way streets and speeds: the programs and the checker against
+//! trying all networks with all directions, and what must not change.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod common;
+
+use common::config;
+use common::programs::CLOSE;
+use common::ways::{all_networks, all_valid, best, recipe};
 use network_opt::design::{
-    cost, distances, distances_from, verify, EdgeState, Network, Pattern, PatternKind, Problem,
-    Tessellation, Violation, Way,
+    cost, distances, distances_from, verify, Network, Problem, Violation, Way,
 };
 use network_opt::formulate::{longest_ways, prepare, Fate, Formulated, Formulation};
-use network_opt::geo_types::coord;
 use network_opt::mip::Microlp;
-use network_opt::solve::{Ended, Exact, Limits, NetworkSolver, Race, Search, Windows};
+use network_opt::solve::{Ended, Exact, Limits, NetworkSolver, Search};
 use network_opt::DesignError;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
-use std::time::Duration;
-
-fn config(cases: u32) -> ProptestConfig {
-    let long = std::env::var_os("URBAN_LAYOUT_LONG").is_some();
-    ProptestConfig::with_cases(if long { cases * 20 } else { cases })
-}
-
-/// Solvers hold rows to a millionth; sums here have some tens of terms of size
-/// one to ten.
-const CLOSE: f64 = 1e-4;
-/// Networks that are tried at most.
-const MOST: usize = 20_000;
-
-fn grid(columns: usize, rows: usize) -> Tessellation {
-    let wide = columns + 1;
-    let points =
-        (0..wide * (rows + 1)).map(|k| coord! { x: (k % wide) as f64, y: (k / wide) as f64 });
-    let corners = (0..columns * rows).map(|k| k / columns * wide + k % columns);
-    let faces = corners.map(|a| vec![a, a + 1, a + wide + 1, a + wide]);
-    Tessellation::new(points.collect(), faces.collect()).unwrap()
-}
-
-/// What random problems are made of.
-#[derive(Clone, Debug)]
-struct Recipe {
-    size: (usize, usize),
-    states: Vec<u8>,
-    ways: Vec<u8>,
-    costs: Vec<(u8, u8)>,
-    vertices: Vec<u8>,
-    range: usize,
-    dead_ends: bool,
-    close: u8,
-    weights: (u8, u8),
-}
-
-fn recipe() -> impl Strategy<Value = Recipe> {
-    let size = prop_oneof![Just((2, 1)), Just((3, 1)), Just((2, 2)), Just((1, 1))];
-    let edges = (
-        prop::collection::vec(0_u8..100, 12),
-        prop::collection::vec(0_u8..100, 12),
-        prop::collection::vec((0_u8..5, 0_u8..5), 12),
-    );
-    let rest = (
-        prop::collection::vec(0_u8..100, 9),
-        0_usize..3,
-        any::<bool>(),
-        0_u8..4,
-        (0_u8..3, 0_u8..4),
-    );
-    (size, edges, rest).prop_map(|(size, edges, rest)| Recipe {
-        size,
-        states: edges.0,
-        ways: edges.1,
-        costs: edges.2,
-        vertices: rest.0,
-        range: rest.1,
-        dead_ends: rest.2,
-        close: rest.3,
-        weights: rest.4,
-    })
-}
-
-impl Recipe {
-    fn problem(&self) -> Problem {
-        let mesh = grid(self.size.0, self.size.1);
-        let (edges, vertices) = (mesh.edges().len(), mesh.points().len());
-        let states = (0..edges).map(|e| match self.states[e % 12] {
-            0..=11 => EdgeState::Given,
-            12..=15 => EdgeState::Required,
-            16..=19 => EdgeState::Closed,
-            _ => EdgeState::Open,
-        });
-        let ways = (0..edges).map(|e| match self.ways[e % 12] {
-            0..=34 => Way::Both,
-            35..=44 => Way::Forward,
-            45..=54 => Way::Backward,
-            _ => Way::Either,
-        });
-        let sinks = (0..vertices).map(|v| self.vertices[v % 9] < 15);
-        let mut sinks: Vec<bool> = sinks.collect();
-        sinks[usize::from(self.vertices[0]) % vertices] = true;
-        let quarter = |k: u8| 1.0 + f64::from(k) / 4.0;
-        let patterns = match self.close {
-            2 => Some(Some(2.0)),
-            3 => Some(None),
-            _ => None,
-        };
-        let patterns = patterns.map_or_else(Vec::new, |cost| {
-            let pairs = mesh.opposite_edges();
-            let close = |pair: [usize; 2]| Pattern {
-                kind: PatternKind::TooClose,
-                active: pair.to_vec(),
-                inactive: Vec::new(),
-                cost,
-            };
-            pairs.into_iter().map(close).collect()
-        });
-        Problem {
-            vertices,
-            ends: mesh.edges().to_vec(),
-            lengths: (0..edges).map(|e| quarter(self.costs[e % 12].0)).collect(),
-            travel_costs: (0..edges).map(|e| quarter(self.costs[e % 12].1)).collect(),
-            states: states.collect(),
-            ways: ways.collect(),
-            sinks,
-            coverage: (0..vertices).map(|v| mesh.ball(v, self.range)).collect(),
-            required_vertices: (0..vertices)
-                .filter(|v| self.vertices[v % 9] >= 94)
-                .collect(),
-            dead_ends: self.dead_ends,
-            patterns,
-            length_weight: [1.0, 5.0, 1.0][usize::from(self.weights.0)],
-            travel_weight: [0.0, 1.0, 0.001, 4.0][usize::from(self.weights.1)],
-            ..Problem::default()
-        }
-    }
-}
-
-/// All networks with all directions, valid or not; none if there are too many.
-fn all_networks(problem: &Problem) -> Option<Vec<Network>> {
-    let mut found = vec![(Vec::new(), Vec::new())];
-    for e in 0..problem.edges() {
-        let (may, must) = match problem.states[e] {
-            EdgeState::Open => (true, false),
-            EdgeState::Given | EdgeState::Required => (true, true),
-            EdgeState::Closed => (false, false),
-        };
-        let mut choices = Vec::new();
-        if !must {
-            choices.push((false, problem.way(e)));
-        }
-        if may {
-            match problem.way(e) {
-                Way::Either => choices.extend([(true, Way::Forward), (true, Way::Backward)]),
-                way => choices.push((true, way)),
-            }
-        }
-        if found.len() * choices.len() > MOST {
-            return None;
-        }
-        let extended = found.iter().flat_map(|(active, ways)| {
-            choices.iter().map(move |&(on, way)| {
-                let (mut active, mut ways): (Vec<bool>, Vec<Way>) = (active.clone(), ways.clone());
-                active.push(on);
-                ways.push(way);
-                (active, ways)
-            })
-        });
-        found = extended.collect();
-    }
-    let open = problem.has_choice_of_ways();
-    let network = |(active, ways)| Network {
-        active,
-        ways: if open { ways } else { Vec::new() },
-        ..Network::default()
-    };
-    Some(found.into_iter().map(network).collect())
-}
-
-fn all_valid(problem: &Problem) -> Option<Vec<Network>> {
-    let mut all = all_networks(problem)?;
-    all.retain(|network| verify(problem, network).is_empty());
-    Some(all)
-}
-
-fn best(problem: &Problem, valid: &[Network]) -> f64 {
-    let costs = valid.iter().map(|n| cost(problem, n).objective);
-    costs.fold(f64::INFINITY, f64::min)
-}
 
 /// The problem and a network of it with all directions reversed.
 fn reversed(problem: &Problem, network: &Network) -> (Problem, Network) {
@@ -451,58 +284,6 @@ proptest! {
     }
 }
 
-proptest! {
-    #![proptest_config(config(30))]
-
-    /// What the search reports is valid, no better than the best, and on meshes as
-    /// small as these the best; its bound is one.
-    #[test]
-    fn the_search_keeps_directions(recipe in recipe(), seed in 0_u64..1000) {
-        let problem = recipe.problem();
-        let Some(valid) = all_valid(&problem) else { return Ok(()) };
-        let least = best(&problem, &valid);
-        let mut objective = f64::INFINITY;
-        for more in 0..3 {
-            let limits = Limits { deadline: None, seed: seed + 1000 * more, ..Limits::default() };
-            let search = Search { moves: Some(20_000) };
-            let found = search.solve(&problem, None, &limits, &mut |_| true).unwrap();
-            if let Some(network) = &found.network {
-                prop_assert_eq!(verify(&problem, network), vec![]);
-                prop_assert_eq!(found.cost, cost(&problem, network));
-                objective = objective.min(found.cost.objective);
-            }
-            if found.ended == Ended::Infeasible {
-                prop_assert!(valid.is_empty());
-            } else {
-                prop_assert!(found.bound <= least + 1e-6, "{} over {least}", found.bound);
-            }
-            // It is a search, and this law is about enough of it.
-            if objective <= least + 1e-6 || valid.is_empty() {
-                break;
-            }
-        }
-        prop_assert!(objective <= least + 1e-6, "{objective} for {least}");
-    }
-
-    /// Windows and races too end with what is best, from any start.
-    #[test]
-    fn windows_and_races_know_directions(recipe in recipe(), start in any::<prop::sample::Index>()) {
-        let problem = recipe.problem();
-        let Some(valid) = all_valid(&problem) else { return Ok(()) };
-        prop_assume!(!valid.is_empty());
-        let least = best(&problem, &valid);
-        let start = &valid[start.index(valid.len())];
-        let limits = Limits { deadline: Some(Duration::from_secs(60)), ..Limits::default() };
-        let windows = Windows { size: 4, ..Windows::new(Microlp) };
-        let found = windows.solve(&problem, Some(start), &limits, &mut |_| true).unwrap();
-        prop_assert!((found.cost.objective - least).abs() < CLOSE);
-        prop_assert_eq!(verify(&problem, &found.network.unwrap()), vec![]);
-        let found = Race::new(Microlp).solve(&problem, None, &limits, &mut |_| true).unwrap();
-        prop_assert!((found.cost.objective - least).abs() < CLOSE);
-        prop_assert_eq!(verify(&problem, &found.network.unwrap()), vec![]);
-    }
-}
-
 /// Enough of the random problems are small enough to be tried out, have valid
 /// networks, and have streets in them whose direction was chosen.
 #[test]
@@ -527,90 +308,4 @@ fn recipes_are_worth_trying() {
         tried > 120 && solvable > 40 && turned > 20,
         "{tried} {solvable} {turned}"
     );
-}
-
-/// A street to a block and one way around it, from a single sink: both ways
-/// round are as good, and the street alone is no answer.
-#[test]
-fn a_block_is_driven_around() {
-    let mut problem = Problem {
-        vertices: 5,
-        ends: vec![[0, 1], [1, 2], [2, 3], [3, 4], [4, 1]],
-        lengths: vec![1.0; 5],
-        states: vec![EdgeState::Open; 5],
-        sinks: (0..5).map(|v| v == 0).collect(),
-        required_vertices: vec![3],
-        dead_ends: true,
-        ways: vec![
-            Way::Both,
-            Way::Either,
-            Way::Either,
-            Way::Either,
-            Way::Either,
-        ],
-        length_weight: 1.0,
-        travel_weight: 1.0,
-        ..Problem::default()
-    };
-    let limits = Limits::default();
-    let found = Exact::new(Microlp)
-        .solve(&problem, None, &limits, &mut |_| true)
-        .unwrap();
-    // Length 5. Around the block out 4, 3, 2, 1 from the heads, in 1 to 4 to the
-    // tails: a mean of 2.5 each.
-    assert_eq!((found.cost.length, found.cost.travel), (5.0, 10.0));
-    let ways = found.network.unwrap().ways;
-    assert!(ways == problem_ways(Way::Forward) || ways == problem_ways(Way::Backward));
-    // The street to the block too must not be one-way.
-    problem.ways[0] = Way::Either;
-    let found = Exact::new(Microlp)
-        .solve(&problem, None, &limits, &mut |_| true)
-        .unwrap();
-    assert_eq!((found.network, found.ended), (None, Ended::Infeasible));
-}
-
-/// Between two vertices: one street has to be two-way, two may be one-way, and
-/// nothing is wrong with no edge at all.
-#[test]
-fn the_least_problems_are_solved() {
-    let street = |count: usize| Problem {
-        vertices: 2,
-        ends: vec![[0, 1]; count],
-        lengths: vec![1.0; count],
-        states: vec![EdgeState::Open; count],
-        sinks: vec![true, false],
-        required_vertices: vec![1],
-        dead_ends: true,
-        ways: vec![Way::Either; count],
-        length_weight: 1.0,
-        travel_weight: 1.0,
-        ..Problem::default()
-    };
-    let limits = Limits {
-        deadline: None,
-        ..Limits::default()
-    };
-    let search = Search { moves: Some(2000) };
-    for solver in [&Exact::new(Microlp) as &dyn NetworkSolver, &search] {
-        let solve =
-            |problem: &Problem| solver.solve(problem, None, &limits, &mut |_| true).unwrap();
-        assert_eq!(solve(&street(0)).network, None);
-        assert_eq!(solve(&street(1)).network, None);
-        let two = solve(&street(2));
-        // One leads out from a way of 1, the other comes back to one.
-        assert_eq!((two.cost.length, two.cost.travel), (2.0, 0.5 + 0.5));
-        let ways = two.network.unwrap().ways;
-        assert_eq!(ways[0], ways[1].reversed());
-        let empty = Problem {
-            required_vertices: vec![],
-            ..street(2)
-        };
-        let found = solve(&empty);
-        assert_eq!((found.cost.objective, found.ended), (0.0, Ended::Proven));
-        assert_eq!(found.network.unwrap().ways, [Way::Either; 2]);
-    }
-}
-
-fn problem_ways(around: Way) -> Vec<Way> {
-    [vec![Way::Both], vec![around; 4]].concat()
 }

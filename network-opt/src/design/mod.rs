@@ -12,6 +12,7 @@
 //! - [`Network`]: an answer; [`verify`] says what is wrong with it and [`cost`]
 //!   what it costs, both without knowledge of any solver.
 
+mod cost;
 mod one_way;
 mod partition;
 mod paths;
@@ -21,8 +22,10 @@ mod route;
 mod spec;
 mod tessellation;
 mod verify;
+mod violation;
 mod ways;
 
+pub use cost::{cost, cost_of, Cost};
 pub use one_way::OneWay;
 pub use partition::{check_partition, partition, partition_around};
 pub use paths::{paths_between, PathOptions};
@@ -36,6 +39,7 @@ pub use spec::{
     Traffic,
 };
 pub use tessellation::Tessellation;
-pub use verify::{cost, cost_of, verify, Cost, Violation};
+pub use verify::verify;
+pub use violation::Violation;
 pub use ways::{distances, distances_from, Streets, Way};
 pub(crate) use ways::{mean_way, ways_to, Heading};

@@ -4,7 +4,8 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use super::problem::{Network, Problem};
-use super::verify::{verify, Violation};
+use super::verify::verify;
+use super::violation::Violation;
 
 /// Sinks that are to be placed: so many of the candidates become sinks, each
 /// of them on a street.

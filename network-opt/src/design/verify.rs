@@ -1,301 +1,9 @@
-//! Is a network valid, and what does it cost? Knows nothing of solvers.
+//! Is a network valid? Knows nothing of solvers.
 
-use std::fmt;
-
-use super::problem::{EdgeState, Network, PatternKind, Problem};
-use super::ways::{distances, distances_from, mean_way, ways_to, Heading, Streets, Way};
-
-/// What is wrong with a network.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Violation {
-    /// The network has another number of edges than the problem.
-    WrongSize,
-    /// A given or required edge is not active.
-    Missing {
-        /// The edge.
-        edge: usize,
-    },
-    /// A closed edge is active.
-    Forbidden {
-        /// The edge.
-        edge: usize,
-    },
-    /// From an active edge no sink can be reached: an island (C1).
-    Island {
-        /// The edge.
-        edge: usize,
-    },
-    /// None of the vertices that cover a place is active (C2).
-    Uncovered {
-        /// The position in [`Problem::coverage`].
-        row: usize,
-    },
-    /// A vertex that must be active is not.
-    Inactive {
-        /// The vertex.
-        vertex: usize,
-    },
-    /// A vertex that is no sink has a single active edge.
-    DeadEnd {
-        /// The vertex.
-        vertex: usize,
-    },
-    /// A forbidden combination of edges.
-    Pattern {
-        /// The position in [`Problem::patterns`].
-        pattern: usize,
-        /// What it is.
-        kind: PatternKind,
-    },
-    /// None of the paths between two places is active throughout.
-    NoRoute {
-        /// The position in [`Problem::routes`].
-        route: usize,
-    },
-    /// A face is not covered by exactly one room, or an obstacle is covered.
-    Tiling {
-        /// The face.
-        face: usize,
-        /// How many rooms cover it.
-        rooms: usize,
-    },
-    /// A room without a corridor on its border.
-    NoDoor {
-        /// The position in the list of placements.
-        room: usize,
-    },
-    /// A corridor runs through a room.
-    Crossed {
-        /// The position in the list of placements.
-        room: usize,
-        /// The edge.
-        edge: usize,
-    },
-    /// Another number of sinks is placed than there are to be.
-    SinkCount {
-        /// How many are, those of [`Violation::NoPlace`] not counted.
-        sinks: usize,
-    },
-    /// A sink is placed where none may be, or twice at one vertex.
-    NoPlace {
-        /// The vertex.
-        vertex: usize,
-    },
-    /// A room that does not exist.
-    NoRoom {
-        /// Its number.
-        room: usize,
-    },
-    /// An edge that is to be one-way has no direction.
-    NoDirection {
-        /// The edge.
-        edge: usize,
-    },
-    /// An edge has another direction than the problem says.
-    WrongWay {
-        /// The edge.
-        edge: usize,
-    },
-    /// A vertex that is no sink, whose streets all lead to it: one can get
-    /// there, but not on.
-    OnlyIn {
-        /// The vertex.
-        vertex: usize,
-    },
-    /// A vertex that is no sink, whose streets all lead away from it.
-    OnlyOut {
-        /// The vertex.
-        vertex: usize,
-    },
-    /// Streets lead on from a vertex, but none of them in its direction to a
-    /// sink, though one is joined to it.
-    NoWayOut {
-        /// The vertex.
-        vertex: usize,
-    },
-    /// Streets lead to a vertex, but none of them in its direction from a sink,
-    /// though one is joined to it.
-    NoWayIn {
-        /// The vertex.
-        vertex: usize,
-    },
-    /// Too few rooms of a kind, or too many.
-    Count {
-        /// The position in [`Rooms::counts`](super::Rooms::counts).
-        count: usize,
-        /// How many there are.
-        rooms: usize,
-    },
-    /// A demand on rooms that is not met.
-    Wish {
-        /// The position in [`Rooms::wishes`](super::Rooms::wishes).
-        wish: usize,
-    },
-}
-
-impl fmt::Display for Violation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::WrongSize => write!(f, "the network has not one entry an edge"),
-            Self::Missing { edge } => write!(f, "edge {edge} has to be active"),
-            Self::Forbidden { edge } => write!(f, "edge {edge} must not be active"),
-            Self::Island { edge } => write!(f, "edge {edge} reaches no sink"),
-            Self::Uncovered { row } => write!(f, "nothing covers place {row}"),
-            Self::Inactive { vertex } => write!(f, "vertex {vertex} has to be active"),
-            Self::DeadEnd { vertex } => write!(f, "there is a dead end at vertex {vertex}"),
-            Self::Pattern { pattern, kind } => {
-                write!(f, "pattern {pattern} ({}) is forbidden", kind.as_str())
-            }
-            Self::NoRoute { route } => write!(f, "no path of route {route} is active"),
-            Self::Tiling { face, rooms } => write!(f, "face {face} is covered by {rooms} rooms"),
-            Self::NoDoor { room } => write!(f, "room {room} is on no corridor"),
-            Self::Crossed { room, edge } => write!(f, "corridor {edge} runs through room {room}"),
-            Self::SinkCount { sinks } => {
-                write!(f, "{sinks} sinks are placed, not as many as asked")
-            }
-            Self::NoPlace { vertex } => {
-                write!(f, "no sink may be placed at vertex {vertex}, or not twice")
-            }
-            Self::NoRoom { room } => write!(f, "there is no room {room}"),
-            Self::NoDirection { edge } => {
-                write!(f, "edge {edge} has to be one-way, and has no direction")
-            }
-            Self::WrongWay { edge } => write!(f, "edge {edge} has to run another way"),
-            Self::OnlyIn { vertex } => {
-                write!(
-                    f,
-                    "all streets at vertex {vertex} lead to it, none leads on"
-                )
-            }
-            Self::OnlyOut { vertex } => {
-                write!(
-                    f,
-                    "all streets at vertex {vertex} lead away, none leads to it"
-                )
-            }
-            Self::NoWayOut { vertex } => write!(
-                f,
-                "no sink can be reached from vertex {vertex} along streets in their direction"
-            ),
-            Self::NoWayIn { vertex } => write!(
-                f,
-                "vertex {vertex} cannot be reached from a sink along streets in their direction"
-            ),
-            Self::Count { count, rooms } => {
-                write!(f, "{rooms} rooms are not what count {count} asks for")
-            }
-            Self::Wish { wish } => write!(f, "demand {wish} on rooms is not met"),
-        }
-    }
-}
-
-/// What a network costs (equation 14).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Cost {
-    /// The sum that is to be small.
-    pub objective: f64,
-    /// Length of the active edges that were not given.
-    pub length: f64,
-    /// Sum over those edges of the way to the nearest sink from the nearer of
-    /// their two ends, over active edges, by what travel over them costs. With
-    /// one-way streets the mean of that and of the way from the nearest sink,
-    /// each by the end that traffic of the edge may leave or enter by. Infinite
-    /// on an island.
-    pub travel: f64,
-    /// What patterns cost that are not forbidden.
-    pub patterns: f64,
-    /// What routes cost that are not there and need not be.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub routes: f64,
-    /// What wishes about rooms cost that are not granted.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub wishes: f64,
-}
-
-/// What a network costs, valid or not. Patterns that are forbidden cost
-/// nothing here, nor do routes that have to be there. Where sinks are to be
-/// placed, see [`cost_of`](super::cost_of).
-///
-/// # Panics
-///
-/// If there is not one entry an edge.
-#[must_use]
-pub fn cost<'n>(problem: &Problem, streets: impl Into<Streets<'n>>) -> Cost {
-    let streets: Streets<'_> = streets.into();
-    let active = streets.active();
-    let away = distances(problem, streets);
-    let from = problem
-        .has_one_way()
-        .then(|| distances_from(problem, streets));
-    let (mut length, mut travel) = (0.0, 0.0);
-    for (e, &[a, b]) in problem.ends.iter().enumerate() {
-        if active[e] && !problem.is_given(e) {
-            length += problem.lengths[e];
-            travel += match &from {
-                Some(from) => mean_way([a, b], streets.way(problem, e), &away, from),
-                None => away[a].min(away[b]),
-            };
-        }
-    }
-    let patterns = problem
-        .patterns
-        .iter()
-        .filter(|p| occurs(p, active))
-        .filter_map(|p| p.cost)
-        .sum();
-    let missing = problem.routes.iter().filter(|r| !r.is_there(active));
-    let routes = missing.filter_map(|r| r.cost).sum();
-    // An island's way is infinite; 0 times that is not a number.
-    let travelled = if problem.travel_weight > 0.0 {
-        problem.travel_weight * travel
-    } else {
-        0.0
-    };
-    Cost {
-        objective: problem.length_weight * length + travelled + patterns + routes,
-        length,
-        travel,
-        patterns,
-        routes,
-        wishes: 0.0,
-    }
-}
-
-/// What a network costs in all, valid or not: [`cost`] with the sinks that it
-/// chooses, and the wishes about rooms that are not granted. Demands that are
-/// not met cost nothing here.
-///
-/// # Panics
-///
-/// If the network has not one entry an edge.
-#[must_use]
-pub fn cost_of(problem: &Problem, network: &Network) -> Cost {
-    let mut found = cost(&problem.settled(&network.sinks), network);
-    if let Some(rooms) = &problem.rooms {
-        let placed = placed(rooms, network);
-        let denied = rooms.wishes.iter().filter(|w| w.is_denied(|r| placed[r]));
-        found.wishes = denied.filter_map(|w| w.cost).sum();
-        found.objective += found.wishes;
-    }
-    found
-}
-
-/// Whether each room that may be placed is.
-fn placed(rooms: &super::Rooms, network: &Network) -> Vec<bool> {
-    let mut placed = vec![false; rooms.placements.len()];
-    for &room in &network.rooms {
-        if let Some(placed) = placed.get_mut(room) {
-            *placed = true;
-        }
-    }
-    placed
-}
-
-pub(super) fn occurs(pattern: &super::Pattern, active: &[bool]) -> bool {
-    pattern.active.iter().all(|&e| active[e]) && !pattern.inactive.iter().any(|&e| active[e])
-}
+use super::cost::{occurs, placed};
+use super::problem::{EdgeState, Network, Problem};
+use super::violation::Violation;
+use super::ways::{distances, distances_from, ways_to, Heading, Streets, Way};
 
 /// All that is wrong with a network; empty if it is valid.
 ///
@@ -470,13 +178,13 @@ fn rooms(problem: &Problem, network: &Network, found: &mut Vec<Violation>) {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
-    use crate::design::{Pattern, Placement, Rooms};
+    use crate::design::{Pattern, PatternKind, Placement, Rooms};
 
     /// A ladder of two squares: vertices 0 1 2 below, 3 4 5 above; edges 0-1,
     /// 1-2, 3-4, 4-5, 0-3, 1-4, 2-5. The sink is vertex 0.
-    fn ladder() -> Problem {
+    pub(in crate::design) fn ladder() -> Problem {
         Problem {
             vertices: 6,
             ends: vec![[0, 1], [1, 2], [3, 4], [4, 5], [0, 3], [1, 4], [2, 5]],
@@ -489,34 +197,13 @@ mod tests {
         }
     }
 
-    fn network(edges: &[usize]) -> Network {
+    pub(in crate::design) fn network(edges: &[usize]) -> Network {
         let mut active = vec![false; 7];
         edges.iter().for_each(|&e| active[e] = true);
         Network {
             active,
             ..Network::default()
         }
-    }
-
-    #[test]
-    fn costs_are_lengths_and_ways() {
-        // All around: 0-1 and 0-3 start at the sink; 1-2 and 3-4 from a way of
-        // 1, 2-5 from 3, 4-5 from 2.
-        let ring = network(&[0, 1, 6, 3, 2, 4]);
-        let found = cost(&ladder(), &ring.active);
-        assert_eq!((found.length, found.travel), (8.0, 1.0 + 1.0 + 3.0 + 2.0));
-        assert_eq!(found.objective, 87.0);
-        assert_eq!(verify(&ladder(), &ring), []);
-        // Given edges cost nothing, but are travelled on.
-        let mut given = ladder();
-        given.states[0] = EdgeState::Given;
-        given.states[1] = EdgeState::Given;
-        let found = cost(&given, &ring.active);
-        assert_eq!((found.length, found.travel), (5.0, 1.0 + 3.0 + 2.0));
-        assert_eq!(
-            distances(&given, &ring.active),
-            [0.0, 1.0, 3.0, 1.0, 2.0, 4.0]
-        );
     }
 
     #[test]
@@ -636,22 +323,5 @@ mod tests {
             ),
             [Violation::Tiling { face: 1, rooms: 1 }]
         );
-    }
-
-    #[test]
-    fn costs_of_patterns_are_added_and_forbidden_ones_are_not() {
-        let mut problem = ladder();
-        let pattern = |cost| Pattern {
-            kind: PatternKind::TJunction,
-            active: vec![0, 1],
-            inactive: vec![5],
-            cost,
-        };
-        problem.patterns = vec![pattern(Some(3.0)), pattern(None)];
-        let ring = network(&[0, 1, 6, 3, 2, 4]);
-        assert_eq!(cost(&problem, &ring.active).patterns, 3.0);
-        assert_eq!(verify(&problem, &ring).len(), 1);
-        problem.patterns[1].cost = Some(f64::NAN);
-        assert!(problem.check().is_err());
     }
 }

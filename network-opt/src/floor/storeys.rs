@@ -4,7 +4,8 @@ use std::time::Duration;
 
 use geo_types::Coord;
 
-use super::on::{area, middle, Floor};
+use super::measure::{area, middle};
+use super::on::Floor;
 use super::spec::{FloorSpecification, Place, Shaft, ShaftRole};
 use super::template::Shape;
 use crate::design::{verify, Tessellation};

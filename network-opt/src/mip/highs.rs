@@ -214,7 +214,7 @@ fn configure(model: &mut Model, program: &Program, limits: &Limits, presolve: bo
         .ok()?;
     // Two rules of HiGHS 1.16's presolve, enumeration and Fourier-Motzkin
     // elimination, lose solutions: with them the programs of some small networks
-    // come out infeasible (regression tests in `tests/design_props.rs`).
+    // come out infeasible (regression tests in `tests/optimum_props.rs`).
     model
         .try_set_option("presolve_rule_off", 1 << 16 | 1 << 22)
         .ok()?;

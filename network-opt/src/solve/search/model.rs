@@ -5,7 +5,9 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::lists::{inverse, Lists};
+use super::patterns::{decide, literals, triples, Triple};
 use super::placing::Placing;
+use super::rooms::RoomModel;
 use super::turns::{floors, is_lost, Turns};
 use crate::design::{EdgeState, Heading, Problem};
 
@@ -61,41 +63,6 @@ pub(super) struct Model<'p> {
     pub(super) cycles_at: Lists<usize>,
     /// What an average edge costs: the scale of penalties and temperatures.
     pub(super) unit: f64,
-}
-
-/// A pattern of at most three active edges, seen from one of them: it costs so
-/// much if the others are active too, those to be inactive left aside.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Triple {
-    /// The other edges; twice the same if there is only one, and the edge itself
-    /// if there is none.
-    pub(super) others: [usize; 2],
-    /// Infinite if it is forbidden.
-    pub(super) cost: f64,
-    pub(super) pattern: usize,
-}
-
-/// Rooms by edge and face.
-#[derive(Debug)]
-pub(super) struct RoomModel {
-    pub(super) faces: Lists<usize>,
-    pub(super) at_face: Lists<usize>,
-    pub(super) borders: Lists<usize>,
-    pub(super) border_at: Lists<usize>,
-    pub(super) inners: Lists<usize>,
-    pub(super) inner_at: Lists<usize>,
-    /// Placements that can never be: over an obstacle or an active edge, or
-    /// unwelcome in any case.
-    pub(super) barred: Vec<bool>,
-    /// The placements of each count, and the counts of each placement.
-    pub(super) counted: Lists<usize>,
-    pub(super) counts_at: Lists<usize>,
-    /// The least and the most of each count.
-    pub(super) limits: Vec<[usize; 2]>,
-    /// Literals of each wish: a placement, and whether placing it denies it.
-    pub(super) wishes: Lists<(usize, bool)>,
-    pub(super) wish_costs: Vec<Option<f64>>,
-    pub(super) wishes_at: Lists<(usize, bool)>,
 }
 
 /// No network can be valid.
@@ -236,187 +203,6 @@ impl<'p> Model<'p> {
     pub(super) fn price(&self, e: usize, away: f64) -> f64 {
         let p = self.problem;
         p.length_weight * p.lengths[e] + p.travel_weight * away
-    }
-}
-
-impl RoomModel {
-    /// By how much a count is off.
-    pub(super) fn off(&self, count: usize, rooms: usize) -> usize {
-        let [least, most] = self.limits[count];
-        least.saturating_sub(rooms) + rooms.saturating_sub(most)
-    }
-
-    fn new(problem: &Problem, fates: &[Fate]) -> Self {
-        let rooms = problem.rooms.as_ref().expect("a floorplan");
-        let list = |of: fn(&crate::design::Placement) -> &Vec<usize>| {
-            Lists::new(
-                (rooms.placements.iter())
-                    .map(|p| {
-                        let mut list = of(p).clone();
-                        list.sort_unstable();
-                        list.dedup();
-                        list
-                    })
-                    .collect(),
-            )
-        };
-        let (faces, borders, inners) =
-            (list(|p| &p.faces), list(|p| &p.border), list(|p| &p.inner));
-        let unwelcome: std::collections::BTreeSet<usize> = (rooms.wishes.iter())
-            .filter(|w| w.cost.is_none() && w.when.len() == 1 && w.then.is_empty())
-            .map(|w| w.when[0])
-            .collect();
-        let (wishes, wish_costs) = wish_literals(&rooms.wishes);
-        let mut wishes_at = vec![Vec::new(); rooms.placements.len()];
-        for w in 0..wishes.len() {
-            for &(r, wanted) in wishes.of(w) {
-                wishes_at[r].push((w, wanted));
-            }
-        }
-        let counted = Lists::new(rooms.counts.iter().map(|c| c.rooms.clone()).collect());
-        let barred = (rooms.placements.iter().enumerate())
-            .map(|(k, placement)| {
-                // A face named twice would be covered twice.
-                faces.of(k).len() != placement.faces.len()
-                    || faces.of(k).iter().any(|&f| !rooms.covered[f])
-                    || inners.of(k).iter().any(|&e| fates[e] == Fate::On)
-                    || borders.of(k).iter().all(|&e| fates[e] == Fate::Off)
-                    || unwelcome.contains(&k)
-            })
-            .collect();
-        Self {
-            at_face: inverse(&faces, rooms.covered.len()),
-            border_at: inverse(&borders, problem.edges()),
-            inner_at: inverse(&inners, problem.edges()),
-            faces,
-            borders,
-            inners,
-            barred,
-            counts_at: inverse(&counted, rooms.placements.len()),
-            counted,
-            limits: (rooms.counts.iter())
-                .map(|c| [c.least, c.most.unwrap_or(usize::MAX)])
-                .collect(),
-            wishes,
-            wish_costs,
-            wishes_at: Lists::new(wishes_at),
-        }
-    }
-}
-
-/// The literals of each wish that can be denied.
-fn wish_literals(wishes: &[crate::design::RoomWish]) -> (Lists<(usize, bool)>, Vec<Option<f64>>) {
-    let (mut lists, mut costs) = (Vec::new(), Vec::new());
-    for wish in wishes {
-        if wish.cost == Some(0.0) || wish.when.iter().any(|r| wish.then.contains(r)) {
-            continue;
-        }
-        let when = wish.when.iter().map(|&r| (r, true));
-        let then = wish.then.iter().map(|&r| (r, false));
-        let mut list: Vec<_> = when.chain(then).collect();
-        list.sort_unstable();
-        list.dedup();
-        lists.push(list);
-        costs.push(wish.cost);
-    }
-    (Lists::new(lists), costs)
-}
-
-/// The literals of each pattern that can occur.
-fn literals(problem: &Problem) -> (Lists<(usize, bool)>, Vec<Option<f64>>) {
-    let mut lists = Vec::with_capacity(problem.patterns.len());
-    let mut costs = Vec::with_capacity(problem.patterns.len());
-    for pattern in &problem.patterns {
-        if pattern.cost == Some(0.0) || pattern.active.iter().any(|e| pattern.inactive.contains(e))
-        {
-            continue;
-        }
-        let on = pattern.active.iter().map(|&e| (e, true));
-        let mut list: Vec<_> = on
-            .chain(pattern.inactive.iter().map(|&e| (e, false)))
-            .collect();
-        list.sort_unstable();
-        list.dedup();
-        lists.push(list);
-        costs.push(pattern.cost);
-    }
-    (Lists::new(lists), costs)
-}
-
-/// The short patterns by edge, but those that cannot occur.
-fn triples(
-    patterns: &Lists<(usize, bool)>,
-    costs: &[Option<f64>],
-    fates: &[Fate],
-) -> Lists<Triple> {
-    let mut found = vec![Vec::new(); fates.len()];
-    for (pattern, cost) in costs.iter().enumerate() {
-        let list = patterns.of(pattern);
-        let never = |&(e, on): &(usize, bool)| fates[e] == if on { Fate::Off } else { Fate::On };
-        let active: Vec<usize> = list.iter().filter(|l| l.1).map(|l| l.0).collect();
-        // An edge alone that is dear, or two or three; a dead end is none of them,
-        // since a path goes on.
-        let alone = active.len() == 1 && list.len() == 1;
-        if !(alone || (2..=3).contains(&active.len())) || list.iter().any(never) {
-            continue;
-        }
-        for &e in &active {
-            let mut others = active.iter().copied().filter(|&k| k != e);
-            let first = others.next().unwrap_or(e);
-            found[e].push(Triple {
-                others: [first, others.next().unwrap_or(first)],
-                cost: cost.unwrap_or(f64::INFINITY),
-                pattern,
-            });
-        }
-    }
-    Lists::new(found)
-}
-
-/// Draws conclusions from forbidden patterns of which one literal is left, and
-/// from vertices where an edge alone would be a dead end.
-fn decide(
-    problem: &Problem,
-    around: &Lists<(usize, usize)>,
-    (patterns, costs): (&Lists<(usize, bool)>, &[Option<f64>]),
-    may_sink: &[bool],
-    fates: &mut [Fate],
-) -> Result<(), Hopeless> {
-    loop {
-        let mut changed = false;
-        for (p, _) in costs.iter().enumerate().filter(|(_, cost)| cost.is_none()) {
-            let holds = |(e, wanted): (usize, bool)| match fates[e] {
-                Fate::Open => None,
-                Fate::On => Some(wanted),
-                Fate::Off => Some(!wanted),
-            };
-            let list = patterns.of(p);
-            if list.iter().any(|&l| holds(l) == Some(false)) {
-                continue;
-            }
-            let mut open = list.iter().filter(|&&l| holds(l).is_none());
-            match (open.next(), open.next()) {
-                (None, _) => return Err(Hopeless),
-                (Some(&(e, wanted)), None) => {
-                    fates[e] = if wanted { Fate::Off } else { Fate::On };
-                    changed = true;
-                }
-                _ => {}
-            }
-        }
-        for v in (0..problem.vertices).filter(|&v| !problem.dead_ends && !may_sink[v]) {
-            let mut usable = around.of(v).iter().filter(|&&(e, _)| fates[e] != Fate::Off);
-            if let (Some(&(e, _)), None) = (usable.next(), usable.next()) {
-                if fates[e] == Fate::On {
-                    return Err(Hopeless);
-                }
-                fates[e] = Fate::Off;
-                changed = true;
-            }
-        }
-        if !changed {
-            return Ok(());
-        }
     }
 }
 

@@ -411,7 +411,7 @@ impl State {
 }
 
 impl Rooms {
-    fn corridor(&mut self, rooms: &super::model::RoomModel, e: usize, on: bool) {
+    fn corridor(&mut self, rooms: &super::rooms::RoomModel, e: usize, on: bool) {
         for &p in rooms.border_at.of(e) {
             self.doors[p] = if on {
                 self.doors[p] + 1
@@ -434,7 +434,7 @@ impl Rooms {
         }
     }
 
-    fn set(&mut self, rooms: &super::model::RoomModel, room: usize, on: bool) {
+    fn set(&mut self, rooms: &super::rooms::RoomModel, room: usize, on: bool) {
         self.placed.set(room, on);
         self.shut.set(room, on && self.doors[room] == 0);
         self.crossed.set(room, on && self.crossings[room] > 0);
@@ -470,7 +470,7 @@ impl Rooms {
     }
 
     /// A wish is denied now, or no longer.
-    fn deny(&mut self, rooms: &super::model::RoomModel, w: usize, denied: bool) {
+    fn deny(&mut self, rooms: &super::rooms::RoomModel, w: usize, denied: bool) {
         self.denied.set(w, denied);
         match rooms.wish_costs[w] {
             None => self.unmet.set(w, denied),
@@ -479,7 +479,7 @@ impl Rooms {
     }
 
     /// The counters of counts and wishes without any room; all others empty.
-    fn counters(rooms: Option<&super::model::RoomModel>) -> Self {
+    fn counters(rooms: Option<&super::rooms::RoomModel>) -> Self {
         let counts = rooms.map_or(0, |r| r.limits.len());
         let wishes = rooms.map_or(0, |r| r.wishes.len());
         let mut counters = Self {

@@ -1,7 +1,7 @@
 //! Rooms: exact tilings of bare faces, and new tilings of a few rooms.
 
-use super::model::RoomModel;
 use super::moves::Walk;
+use super::rooms::RoomModel;
 
 /// Placements that are tried for one tiling.
 const TRIES: usize = 300;

@@ -1,0 +1,168 @@
+//! Laws of optima: programs and the exact solver find the best of all networks,
+//! and what must not change it does not.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+
+use common::brute::{all_valid, open_edges, renamed};
+use common::programs::{agrees, solved, solved_by, CLOSE};
+use common::recipe::{config, pattern, recipe, Recipe};
+use network_opt::design::{cost, EdgeState, PatternKind};
+use network_opt::formulate::Cuts;
+use network_opt::mip::Microlp;
+use network_opt::solve::Exact;
+use proptest::prelude::*;
+use proptest::sample::subsequence;
+
+proptest! {
+    #![proptest_config(config(12))]
+
+    /// Every program has the optimum that trying all networks has, and a
+    /// network exactly where there is one.
+    #[test]
+    fn programs_agree_with_trying_all(recipe in recipe()) {
+        let problem = recipe.problem();
+        prop_assume!(open_edges(&problem) <= 10);
+        agrees(&problem, &Microlp)?;
+    }
+}
+
+#[cfg(feature = "highs")]
+proptest! {
+    #![proptest_config(config(50))]
+
+    #[test]
+    fn programs_of_highs_agree_with_trying_all(recipe in recipe()) {
+        let problem = recipe.problem();
+        prop_assume!(open_edges(&problem) <= 12);
+        agrees(&problem, &network_opt::mip::Highs)?;
+    }
+}
+
+proptest! {
+    #![proptest_config(config(12))]
+
+    /// The exact solver answers as trying all does, and asking for more never
+    /// makes the answer better.
+    #[test]
+    fn asking_for_more_costs_no_less(recipe in recipe(), more in 0_usize..6, which in 0_usize..100) {
+        let problem = recipe.problem();
+        prop_assume!(open_edges(&problem) <= 10);
+        let before = solved(&problem);
+        let least = all_valid(&problem).iter()
+            .map(|n| cost(&problem, &n.active).objective)
+            .min_by(f64::total_cmp);
+        prop_assert_eq!(before.is_some(), least.is_some());
+        if let (Some(before), Some(least)) = (before, least) {
+            prop_assert!((before - least).abs() < 1e-3, "{} for {}", before, least);
+        }
+        let mut asked = problem.clone();
+        let (edge, vertex) = (which % problem.edges(), which % problem.vertices);
+        match more {
+            0 if problem.states[edge] == EdgeState::Open => asked.states[edge] = EdgeState::Closed,
+            1 if problem.states[edge] == EdgeState::Open => asked.states[edge] = EdgeState::Required,
+            2 => asked.required_vertices.push(vertex),
+            3 => asked.dead_ends = false,
+            4 => asked.coverage.push(vec![vertex]),
+            _ => asked.patterns.push(pattern(PatternKind::Branch, &[edge], None)),
+        }
+        match (before, solved(&asked)) {
+            (None, after) => prop_assert_eq!(after, None),
+            (Some(before), Some(after)) => prop_assert!(after >= before - CLOSE),
+            (Some(_), None) => {}
+        }
+    }
+
+    /// The exact solver finds the same without any cuts.
+    #[test]
+    fn cuts_change_no_optimum(recipe in recipe()) {
+        let problem = recipe.problem();
+        prop_assume!(open_edges(&problem) <= 10);
+        let plain = Exact { cuts: Cuts::none(), ..Exact::new(Microlp) };
+        match (solved(&problem), solved_by(&plain, &problem)) {
+            (Some(a), Some(b)) => prop_assert!((a - b).abs() < CLOSE, "{a} and {b}"),
+            (a, b) => prop_assert_eq!(a, b),
+        }
+    }
+
+    /// Other numbers for the same vertices and edges change nothing.
+    #[test]
+    fn numbers_do_not_matter(
+        (recipe, vertices, edges) in recipe().prop_flat_map(|recipe| {
+            let mesh = recipe.mesh();
+            let all = |n: usize| subsequence((0..n).collect::<Vec<_>>(), n).prop_shuffle();
+            (Just(recipe), all(mesh.points().len()), all(mesh.edges().len()))
+        })
+    ) {
+        let problem = recipe.problem();
+        prop_assume!(open_edges(&problem) <= 10);
+        let other = renamed(&problem, &vertices, &edges);
+        match (solved(&problem), solved(&other)) {
+            (Some(a), Some(b)) => prop_assert!((a - b).abs() < CLOSE, "{a} and {b}"),
+            (a, b) => prop_assert_eq!(a, b),
+        }
+    }
+}
+
+/// HiGHS's presolve once called this one infeasible: a given edge apart from the
+/// others, with travel that costs nothing.
+#[cfg(feature = "highs")]
+#[test]
+fn presolve_of_highs_loses_no_network() {
+    let recipe = Recipe {
+        size: (2, 2),
+        cut: vec![true, false, false, false],
+        edges: vec![
+            0, 17, 11, 17, 17, 17, 17, 17, 11, 17, 17, 17, 17, 0, 0, 0, 0, 0, 0, 0,
+        ],
+        vertices: vec![94, 15, 15, 15, 0, 15, 0, 15, 15, 0, 0, 0],
+        range: 1,
+        unit: false,
+        dead_ends: false,
+        close: 1,
+        zig_zags: 2,
+        branches: 1,
+        weights: (0, 0),
+        route: false,
+        rooms: false,
+    };
+    agrees(&recipe.problem(), &network_opt::mip::Highs).unwrap();
+    // Another, by another rule.
+    let recipe = Recipe {
+        size: (3, 1),
+        cut: vec![false],
+        edges: vec![17, 17, 17, 17, 17, 17, 17, 17, 17, 17, 0],
+        vertices: vec![24, 15, 15, 15, 94, 15, 15, 15],
+        dead_ends: true,
+        close: 2,
+        zig_zags: 1,
+        route: true,
+        ..recipe
+    };
+    agrees(&recipe.problem(), &network_opt::mip::Highs).unwrap();
+}
+
+/// All edges known beforehand: nothing is left to decide, a program without
+/// columns.
+#[test]
+fn nothing_to_decide_is_decided() {
+    let recipe = Recipe {
+        size: (1, 1),
+        cut: vec![false],
+        edges: vec![11, 11, 11, 0],
+        vertices: vec![0],
+        range: 1,
+        unit: false,
+        dead_ends: false,
+        close: 0,
+        zig_zags: 0,
+        branches: 0,
+        weights: (0, 0),
+        route: false,
+        rooms: false,
+    };
+    agrees(&recipe.problem(), &Microlp).unwrap();
+    #[cfg(feature = "highs")]
+    agrees(&recipe.problem(), &network_opt::mip::Highs).unwrap();
+}
