@@ -9,7 +9,10 @@
 //!
 //! An edge moves on until it meets the boundary: land behind a bay, which is in the
 //! way, is not reached. Where cells could go on beyond the boundary they are cut to
-//! what their edge sees along its way.
+//! what their edge sees along its way. In that, and in its mitres, a band differs from
+//! what [`erode`](super::erode) takes away, which is all land within a width: peeled
+//! strips have the same depth and sharp corners everywhere, and leave what they pass
+//! by alone.
 //!
 //! The band is had as areas that overlap and go on beyond the land where it ends.
 //! Their vertices on the boundary are vertices of the boundary to the last digit:
@@ -19,15 +22,11 @@ use std::slice::from_ref;
 
 use geo_types::Coord;
 
-use super::inset::{wedge, STRAIGHT};
+use super::inset::{wedge, REACH, STRAIGHT};
 use super::{
     cross, difference, dist, dot, intersection, lerp, right, sides, trim, union, unit, Area,
     Corner, Ring, Segment,
 };
-
-/// A run that follows its neighbours reaches no farther beyond its end than this
-/// many depths: as mitres do.
-const REACH: f64 = 4.0;
 
 /// What is told from zero, as a share.
 const TINY: f64 = 1e-9;
@@ -53,7 +52,7 @@ pub(crate) struct Bound {
 pub(crate) enum Ends {
     /// Its corners slide along the edges next to it, unless those lead away from
     /// the land (a corner of half a turn or more), or would lead them farther
-    /// along than four depths: then as below.
+    /// along than mitres reach, four depths: then as below.
     Follow,
     /// At right angles to the moved edge.
     Square,
