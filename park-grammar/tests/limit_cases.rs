@@ -1,13 +1,15 @@
 //! Limits: what leads back to itself and what takes too long is stopped, with an
 //! error that names the rule.
 
+mod common;
+
 use std::time::Duration;
 
-use park_grammar::geo_types::{coord, polygon, Polygon};
+use park_grammar::geo_types::{coord, Polygon};
 use park_grammar::{DeriveOptions, Grammar, ParkError};
 
 fn square(side: f64) -> Polygon<f64> {
-    polygon![(x: 0., y: 0.), (x: side, y: 0.), (x: side, y: side), (x: 0., y: side)]
+    common::rectangle(side, side)
 }
 
 fn grammar(rules: &str) -> Grammar {
