@@ -137,11 +137,19 @@ fn long_operations_ask_whether_to_go_on() {
 #[test]
 fn strips_ask_whether_to_go_on() {
     let strips = "0.1 m: Lawn | ".repeat(100);
+    let ranges: Vec<String> = (0..100)
+        .map(|k| format!("[0.{k:02}1, 0.{k:02}5]"))
+        .collect();
+    let ranges = ranges.join(", ");
     for (rules, least) in [
         (format!("Region -> Peel(ALL) {{ {strips} Lawn }}"), 400),
         (
             format!("Region -> Peel(ALL, smooth = average) {{ {strips} Lawn }}"),
             600,
+        ),
+        (
+            format!("Region -> Sweep(Part(ALL, {ranges})) {{ Hedge }}"),
+            200,
         ),
         (
             "Region -> Rings(100 {0.2}, width = 0.1) { Lawn }".to_owned(),

@@ -10,7 +10,7 @@
 //! An edge moves on until it meets the boundary: land behind a bay, which is in the
 //! way, is not reached. Where cells could go on beyond the boundary they are cut to
 //! what their edge sees along its way. In that, and in its mitres, a band differs from
-//! what [`erode`](super::erode) takes away, which is all land within a width: peeled
+//! what [`erode`](fn@super::erode) takes away, which is all land within a width: peeled
 //! strips have the same depth and sharp corners everywhere, and leave what they pass
 //! by alone.
 //!
