@@ -1,9 +1,13 @@
 //! The audit goes red on every kind of broken scene, and says by how much.
 
+mod common;
+
 use park_grammar::audit::Violation;
 use park_grammar::geo_types::{coord, polygon, Coord, LineString, Polygon};
 use park_grammar::scene::{Ground, Object, Piece, Volume};
 use park_grammar::{Audit, DeriveOptions, Grammar, Scene};
+
+use common::mapped;
 
 const RULES: &str = "grammar 1
 Region -> Grid(2, 2) { Quarter } { Gravel } { Circle(4) Paving Fountain }
@@ -35,11 +39,7 @@ fn only(audit: &Audit) -> &Violation {
 }
 
 fn moved(polygon: &Polygon<f64>, by: Coord<f64>) -> Polygon<f64> {
-    let ring = |ring: &LineString<f64>| LineString(ring.0.iter().map(|&c| c + by).collect());
-    Polygon::new(
-        ring(polygon.exterior()),
-        polygon.interiors().iter().map(ring).collect(),
-    )
+    mapped(polygon, |c| c + by)
 }
 
 fn object(name: &str, x: f64, y: f64, radius: f64) -> Object {

@@ -1,17 +1,14 @@
 //! Laws of the audit itself: what it measures adds up, and does not depend on
 //! where the park lies or how it is turned.
 
+mod common;
+
 use park_grammar::geo_types::{coord, Coord, LineString, Polygon};
 use park_grammar::scene::{Ground, Piece};
 use park_grammar::{Audit, Scene};
 use proptest::prelude::*;
 
-fn cases() -> u32 {
-    match std::env::var_os("URBAN_LAYOUT_LONG") {
-        Some(value) if value == "1" => 2000,
-        _ => 60,
-    }
-}
+use common::{config, mapped, size};
 
 /// A star-shaped ring: simple, concave as a rule.
 fn star() -> impl Strategy<Value = Polygon<f64>> {
@@ -24,14 +21,6 @@ fn star() -> impl Strategy<Value = Polygon<f64>> {
         });
         Polygon::new(LineString(points.collect()), Vec::new())
     })
-}
-
-fn moved(polygon: &Polygon<f64>, to: impl Fn(Coord<f64>) -> Coord<f64> + Copy) -> Polygon<f64> {
-    let ring = |ring: &LineString<f64>| LineString(ring.0.iter().map(|&c| to(c)).collect());
-    Polygon::new(
-        ring(polygon.exterior()),
-        polygon.interiors().iter().map(ring).collect(),
-    )
 }
 
 fn scene(pieces: &[Polygon<f64>]) -> Scene {
@@ -47,26 +36,20 @@ fn scene(pieces: &[Polygon<f64>]) -> Scene {
     }
 }
 
-fn area(polygon: &Polygon<f64>) -> f64 {
-    let ring = polygon.exterior().0.windows(2);
-    let signed: f64 = ring.map(|w| w[0].x * w[1].y - w[1].x * w[0].y).sum();
-    0.5 * signed.abs()
-}
-
 fn figures(audit: &Audit) -> [f64; 4] {
     [audit.area, audit.gap, audit.overlap, audit.outside]
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(cases()))]
+    #![proptest_config(config(60, 2000))]
 
     /// What pieces cover is the outline, less the gap, and what they cover again
     /// or outside.
     #[test]
     fn land_adds_up(outline in star(), pieces in proptest::collection::vec(star(), 0..6)) {
         let [whole, gap, overlap, outside] = figures(&scene(&pieces).audit(&outline));
-        let covered: f64 = pieces.iter().map(area).sum();
-        prop_assert!((whole - area(&outline)).abs() < 1e-9);
+        let covered: f64 = pieces.iter().map(size).sum();
+        prop_assert!((whole - size(&outline)).abs() < 1e-9);
         prop_assert!(gap >= 0.0 && overlap >= 0.0 && outside >= 0.0 && gap <= whole + 1e-9);
         prop_assert!((covered - (whole - gap + overlap + outside)).abs() < 1e-8);
     }
@@ -84,8 +67,8 @@ proptest! {
             let x = if mirror { -c.x } else { c.x };
             coord! { x: 4e5 + x * cos - c.y * sin, y: 6.7e6 + x * sin + c.y * cos }
         };
-        let there: Vec<_> = pieces.iter().map(|p| moved(p, to)).collect();
-        let after = figures(&scene(&there).audit(&moved(&outline, to)));
+        let there: Vec<_> = pieces.iter().map(|p| mapped(p, to)).collect();
+        let after = figures(&scene(&there).audit(&mapped(&outline, to)));
         // Coordinates there have 1e-9 m left.
         for (a, b) in before.iter().zip(after) {
             prop_assert!((a - b).abs() < 1e-5, "{before:?} {after:?}");

@@ -1,16 +1,17 @@
 //! What grammars make of outlines, by examples with known answers.
 
+mod common;
+
 use park_grammar::geo_types::{polygon, Polygon};
 use park_grammar::scene::Ground;
 use park_grammar::{DeriveOptions, Grammar, ParkError, Scene};
 
 fn square() -> Polygon<f64> {
-    polygon![(x: 0., y: 0.), (x: 80., y: 0.), (x: 80., y: 50.), (x: 0., y: 50.)]
+    common::rectangle(80., 50.)
 }
 
 fn derive(rules: &str) -> Result<Scene, ParkError> {
-    let grammar = Grammar::new(&format!("grammar 1\n{rules}"))?;
-    grammar.derive(&square(), &DeriveOptions::default())
+    common::park(&square(), rules, 0)
 }
 
 #[test]

@@ -2,10 +2,13 @@
 //! solids that are seen from outside, objects where they stand.
 #![cfg(feature = "gltf")]
 
-use park_grammar::geo_types::{polygon, Polygon};
+mod common;
+
 use park_grammar::scene::Ground;
-use park_grammar::{gltf, library, DeriveOptions, Grammar, Scene};
+use park_grammar::{gltf, library, Scene};
 use serde_json::Value;
+
+use common::{park_with_mesh, size};
 
 const RULES: &str = "grammar 1
 param Oak = Object(radius = 0.5, spread = 4 m, height = 14 m, colour = \"#8a9a3f\")
@@ -18,15 +21,8 @@ Quarter -> Place((0.3, 0.3)) { Circle(3) Water }
 
 const STONE: &str = "v 1 0 0\nv -1 0 1\nv -1 0 -1\nv 0 1.5 0\nf 1 4 2\nf 2 4 3\nf 3 4 1\n";
 
-fn outline(x: f64, y: f64) -> Polygon<f64> {
-    polygon![(x: x, y: y), (x: x + 80., y: y), (x: x + 80., y: y + 60.), (x: x, y: y + 60.)]
-}
-
 fn park(x: f64, y: f64) -> Scene {
-    let load = |_: &str| Ok(STONE.to_owned());
-    Grammar::with_includes("park", RULES, &load)
-        .and_then(|grammar| grammar.derive(&outline(x, y), &DeriveOptions::default()))
-        .expect("derives")
+    park_with_mesh(RULES, STONE, x, y)
 }
 
 /// A file taken apart.
@@ -199,11 +195,6 @@ fn the_ground_is_the_park() {
 fn hedges_have_their_volume() {
     let scene = park(0.0, 0.0);
     let model = Model::read(&gltf::glb(&scene));
-    let size = |p: &Polygon<f64>| -> f64 {
-        let ring = p.exterior().0.windows(2);
-        ring.map(|w| 0.5 * (w[0].x * w[1].y - w[1].x * w[0].y))
-            .sum()
-    };
     let must: f64 = scene
         .volumes
         .iter()

@@ -341,24 +341,10 @@ fn the_notes_free_form() {
 fn the_notes_simple_square() {
     let scene = notes(
         40.0,
-        "Region -> Grid(2, 2) { ParkQuarter } { ParkPath } { Romb(3) Fountain }
-
-         ParkQuarter -> Peel(OUTER) { 0.75: TreeStrip | GrassRegion }
-
-         TreeStrip ->  BLUE_GRASS
-         Distribute (OUTER_EDGE: 0.375, 2) {TallTree}
-
-         GrassRegion -> GREEN_GRASS
-         Place( CENTRE) { TreeRegion }
-         DistributeSmooth( Boundary1(Perimeter))  { Bush }
-
-         fun Boundary1(area) ->
-         Parametrise([0.02,1], [0, 1], [0, 0.15], 0) { Contract(1, area) }
-
-         TreeRegion -> Circle (1)
-         Place (CENTRE) { Tree }
-
-         ParkPath -> Gravel",
+        concat!(
+            include_str!("notes/simple_square.park"),
+            "ParkPath -> Gravel"
+        ),
     );
     assert_eq!(count(&scene, "BLUE_GRASS"), 4);
     // The lawns, and the round ground of their trees, which is of the same.

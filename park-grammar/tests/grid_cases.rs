@@ -1,29 +1,15 @@
 //! What `Grid` and `FitRectangle` make, by examples with known answers.
 
+mod common;
+
 use park_grammar::geo_types::{polygon, Coord, Polygon};
 use park_grammar::scene::Piece;
-use park_grammar::{DeriveOptions, Grammar, ParkError, Scene};
+use park_grammar::{ParkError, Scene};
 
-fn park(park: &Polygon<f64>, rules: &str) -> Result<Scene, ParkError> {
-    let grammar = Grammar::new(&format!("grammar 1\n{rules}"))?;
-    grammar.derive(park, &DeriveOptions::default())
-}
+use common::{near, of, rectangle, size};
 
-fn rectangle(width: f64, height: f64) -> Polygon<f64> {
-    polygon![(x: 0., y: 0.), (x: width, y: 0.), (x: width, y: height), (x: 0., y: height)]
-}
-
-fn size(polygon: &Polygon<f64>) -> f64 {
-    let ring = |line: &park_grammar::geo_types::LineString<f64>| {
-        let doubled: f64 = line.lines().map(|l| l.determinant()).sum();
-        doubled.abs() / 2.0
-    };
-    ring(polygon.exterior()) - polygon.interiors().iter().map(ring).sum::<f64>()
-}
-
-fn of<'s>(scene: &'s Scene, material: &str) -> Vec<&'s Piece> {
-    let wanted = scene.pieces.iter().filter(|p| p.material == material);
-    wanted.collect()
+fn park(outline: &Polygon<f64>, rules: &str) -> Result<Scene, ParkError> {
+    common::park(outline, rules, 0)
 }
 
 /// Width and height of a piece's extent.
@@ -34,10 +20,6 @@ fn extent(piece: &Piece) -> [f64; 2] {
         most(1.0) + most(-1.0)
     };
     [fold(&|p| p.x), fold(&|p| p.y)]
-}
-
-fn near(found: f64, wanted: f64) -> bool {
-    (found - wanted).abs() < 1e-9 * wanted.abs().max(1.0)
 }
 
 /// The notes' simple square park: four quarters without a third of the romb

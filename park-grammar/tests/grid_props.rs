@@ -1,115 +1,14 @@
 //! Laws of `Grid` and `FitRectangle`: what they make tiles the region, moves and
 //! turns with it, and is symmetric where cells are mirror images.
 
-use park_grammar::geo_types::{Coord, LineString, Polygon};
-use park_grammar::{DeriveOptions, Grammar, ParkError, Scene};
+mod common;
+
+use park_grammar::geo_types::Coord;
+use park_grammar::Scene;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-/// Few cases, or with `URBAN_LAYOUT_LONG` many.
-fn config(few: u32, many: u32) -> ProptestConfig {
-    let long = std::env::var_os("URBAN_LAYOUT_LONG").is_some();
-    ProptestConfig::with_cases(if long { many } else { few })
-}
-
-fn park(outline: &Polygon<f64>, rules: &str, seed: u64) -> Result<Scene, ParkError> {
-    let grammar = Grammar::new(&format!("grammar 1\n{rules}"))?;
-    let options = DeriveOptions {
-        seed,
-        ..DeriveOptions::default()
-    };
-    grammar.derive(outline, &options)
-}
-
-fn signed(line: &LineString<f64>) -> f64 {
-    let origin = line.0[0];
-    let moved = |c: Coord<f64>| c - origin;
-    let part = |(a, b): (Coord<f64>, Coord<f64>)| a.x * b.y - a.y * b.x;
-    let doubled: f64 = line
-        .lines()
-        .map(|l| part((moved(l.start), moved(l.end))))
-        .sum();
-    doubled / 2.0
-}
-
-fn size(polygon: &Polygon<f64>) -> f64 {
-    let holes: f64 = polygon.interiors().iter().map(|r| signed(r).abs()).sum();
-    signed(polygon.exterior()).abs() - holes
-}
-
-fn within(polygon: &Polygon<f64>, p: Coord<f64>) -> bool {
-    let rings = std::iter::once(polygon.exterior()).chain(polygon.interiors());
-    let crosses = |a: Coord<f64>, b: Coord<f64>| {
-        (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) * (b.x - a.x) / (b.y - a.y)
-    };
-    let lines = rings.flat_map(|ring| ring.lines());
-    lines.filter(|l| crosses(l.start, l.end)).count() % 2 == 1
-}
-
-/// How far a point is from any edge of a polygon.
-fn clearance(polygon: &Polygon<f64>, p: Coord<f64>) -> f64 {
-    let rings = std::iter::once(polygon.exterior()).chain(polygon.interiors());
-    let away = |l: park_grammar::geo_types::Line<f64>| {
-        let (d, v) = (l.delta(), p - l.start);
-        let square = d.x * d.x + d.y * d.y;
-        let t = if square > 0.0 {
-            ((v.x * d.x + v.y * d.y) / square).clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
-        (v.x - t * d.x).hypot(v.y - t * d.y)
-    };
-    rings
-        .flat_map(|r| r.lines())
-        .map(away)
-        .fold(f64::MAX, f64::min)
-}
-
-/// Where the middle of a polygon's mass lies.
-fn middle(polygon: &Polygon<f64>) -> Coord<f64> {
-    let (mut sum, mut doubled) = (Coord::default(), 0.0);
-    let origin = polygon.exterior().0[0];
-    for ring in std::iter::once(polygon.exterior()).chain(polygon.interiors()) {
-        for line in ring.lines() {
-            let (a, b) = (line.start - origin, line.end - origin);
-            let part = a.x * b.y - a.y * b.x;
-            sum = sum + (a + b) * part;
-            doubled += part;
-        }
-    }
-    origin + sum / (3.0 * doubled)
-}
-
-/// A polygon of any shape around a middle, up to 40 vertices, concave as a rule.
-fn outline() -> impl Strategy<Value = Polygon<f64>> {
-    let ring = vec((0.2..1.0_f64, 20.0..90.0_f64), 4..=40);
-    (ring, 0.0..6.3_f64, any::<bool>()).prop_map(|(steps, start, hole)| {
-        let whole: f64 = steps.iter().map(|s| s.0).sum();
-        let mut angle = start;
-        let points: Vec<Coord<f64>> = steps
-            .iter()
-            .map(|(step, radius)| {
-                angle += step / whole * std::f64::consts::TAU;
-                Coord {
-                    x: radius * angle.cos(),
-                    y: radius * angle.sin(),
-                }
-            })
-            .collect();
-        // Within half of the least distance of an edge between two vertices.
-        let round = |k: u32| f64::from(k) / 6.0 * std::f64::consts::TAU + start;
-        let inner = (0..6).map(|k| Coord {
-            x: 3.0 * round(k).cos(),
-            y: 3.0 * round(k).sin(),
-        });
-        let holes = if hole && steps.len() > 8 {
-            vec![inner.collect()]
-        } else {
-            Vec::new()
-        };
-        Polygon::new(LineString(points), holes)
-    })
-}
+use common::{config, is_tiled, middle, mirrors, outline, park, rectangle, size, tiling, Motion};
 
 /// One dimension of a grid.
 fn dimension() -> impl Strategy<Value = String> {
@@ -139,43 +38,6 @@ fn arguments() -> impl Strategy<Value = String> {
         .prop_map(|(x, y, fit, flags)| format!("{x}, {y}{fit}{flags}, min_angle = 5"))
 }
 
-fn is_tiled(
-    outline: &Polygon<f64>,
-    scene: &Scene,
-    points: &[(f64, f64)],
-) -> Result<(), TestCaseError> {
-    let whole = size(outline);
-    let all: f64 = scene.pieces.iter().map(|p| size(&p.polygon)).sum();
-    prop_assert!((all / whole - 1.0).abs() < 1e-9, "{all} of {whole}");
-    for piece in &scene.pieces {
-        prop_assert!(signed(piece.polygon.exterior()) > 0.0);
-        for p in &piece.polygon.exterior().0 {
-            prop_assert!(
-                within(outline, *p) || clearance(outline, *p) < 1e-7,
-                "{p:?} is outside"
-            );
-        }
-    }
-    // Each point lies in one piece.
-    for &(x, y) in points {
-        let p = Coord { x, y };
-        let sure = scene
-            .pieces
-            .iter()
-            .all(|piece| clearance(&piece.polygon, p) > 1e-7);
-        let count = scene
-            .pieces
-            .iter()
-            .filter(|piece| within(&piece.polygon, p))
-            .count();
-        prop_assert!(
-            !sure || count == usize::from(within(outline, p)),
-            "{count} at {p:?}"
-        );
-    }
-    Ok(())
-}
-
 proptest! {
     #![proptest_config(config(96, 20_000))]
 
@@ -190,13 +52,7 @@ proptest! {
         seed in 0..1000_u64,
     ) {
         let rules = format!("Region -> Grid({arguments}) {{ Meadow }} {paths}");
-        match park(&outline, &rules, seed) {
-            Ok(scene) => {
-                is_tiled(&outline, &scene, &points)?;
-                prop_assert_eq!(Ok(scene), park(&outline, &rules, seed));
-            }
-            Err(error) => prop_assert!(matches!(error, ParkError::Rule(_)), "{}", error),
-        }
+        tiling(&outline, &rules, &points, seed)?;
     }
 
     /// Grids in the cells of grids tile too, on cells of any shape.
@@ -234,35 +90,8 @@ proptest! {
     }
 }
 
-/// Turns by `angle`, mirrors if wanted, and moves.
-#[derive(Clone, Copy, Debug)]
-struct Motion {
-    angle: f64,
-    mirror: bool,
-    by: Coord<f64>,
-}
-
-impl Motion {
-    fn of(self, p: Coord<f64>) -> Coord<f64> {
-        let x = if self.mirror { -p.x } else { p.x };
-        let (sin, cos) = self.angle.sin_cos();
-        Coord {
-            x: x * cos - p.y * sin + self.by.x,
-            y: x * sin + p.y * cos + self.by.y,
-        }
-    }
-
-    fn polygon(self, polygon: &Polygon<f64>) -> Polygon<f64> {
-        let ring = |line: &LineString<f64>| line.0.iter().map(|&c| self.of(c)).collect();
-        Polygon::new(
-            ring(polygon.exterior()),
-            polygon.interiors().iter().map(ring).collect(),
-        )
-    }
-}
-
 /// That each piece and object of one scene has its image in the other.
-fn is_image(a: &Scene, b: &Scene, motion: Motion, far: f64) -> Result<(), TestCaseError> {
+fn has_all_images(a: &Scene, b: &Scene, motion: Motion, far: f64) -> Result<(), TestCaseError> {
     prop_assert_eq!(a.pieces.len(), b.pieces.len());
     prop_assert_eq!(a.objects.len(), b.objects.len());
     let places: Vec<_> = b
@@ -310,7 +139,7 @@ proptest! {
         let here = park(&outline, &rules, 0);
         let there = park(&motion.polygon(&outline), &rules, 0);
         match (here, there) {
-            (Ok(here), Ok(there)) => is_image(&here, &there, motion, 1e-6)?,
+            (Ok(here), Ok(there)) => has_all_images(&here, &there, motion, 1e-6)?,
             (here, there) => prop_assert_eq!(here.is_err(), there.is_err()),
         }
     }
@@ -329,7 +158,7 @@ proptest! {
         let there = park(&motion.polygon(&outline), &rules, 7);
         match (here, there) {
             (Ok(here), Ok(there)) if !searched => {
-                is_image(&here, &there, motion, 1e-5)?;
+                has_all_images(&here, &there, motion, 1e-5)?;
             }
             // A search for the best box ends within its own tolerance.
             _ if searched => {}
@@ -364,13 +193,9 @@ proptest! {
             _ => "Grid(2, 2, fit = bounding) { Meadow Place(CENTRE) { Tree } }".to_owned(),
         };
         let rules = format!("Region -> Grid({columns}, {rows}{treatment}) {{ Cell }} {{ Paving }} {{ {centre} }}\nCell -> {cell}");
-        let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)];
-        let outline = Polygon::new(corners.iter().map(|&(x, y)| Coord { x, y }).collect(), vec![]);
-        let scene = park(&outline, &rules, 3).expect("derives");
-        let upright = Motion { angle: 0.0, mirror: true, by: Coord { x: width, y: 0.0 } };
-        is_image(&scene, &scene, upright, 1e-6)?;
-        // Mirrored and turned by half a turn: upside down.
-        let half = Motion { angle: std::f64::consts::PI, mirror: true, by: Coord { x: 0.0, y: height } };
-        is_image(&scene, &scene, half, 1e-6)?;
+        let scene = park(&rectangle(width, height), &rules, 3).expect("derives");
+        for mirror in mirrors(width, height) {
+            has_all_images(&scene, &scene, mirror, 1e-6)?;
+        }
     }
 }

@@ -1,13 +1,15 @@
 //! Limits: what leads back to itself and what takes too long is stopped, with an
 //! error that names the rule.
 
+mod common;
+
 use std::time::Duration;
 
-use park_grammar::geo_types::{polygon, Polygon};
+use park_grammar::geo_types::{coord, Polygon};
 use park_grammar::{DeriveOptions, Grammar, ParkError};
 
 fn square(side: f64) -> Polygon<f64> {
-    polygon![(x: 0., y: 0.), (x: side, y: 0.), (x: side, y: side), (x: 0., y: side)]
+    common::rectangle(side, side)
 }
 
 fn grammar(rules: &str) -> Grammar {
@@ -78,6 +80,11 @@ fn time_holds_within_one_operation() {
         "Region -> VoronoiRegions(ScatterCircles(5000 {0.2}), width = 0.1) { Lawn }",
         "Region -> CastRays(ScatterCircles(500 {0.3}), 3600, rays = all, width = 0.1) { Lawn }",
         "Region -> Place(Along(ALL, 90000)) { Bin }",
+        &format!(
+            "Region -> Peel(ALL) {{ {} Lawn }}",
+            "0.1 m: Lawn | ".repeat(300)
+        ),
+        "Region -> Rings(900 {0.04}, width = 0.01) { Lawn }",
     ] {
         let what = limit(rules, &options);
         assert_eq!(
@@ -87,7 +94,33 @@ fn time_holds_within_one_operation() {
     }
 }
 
-/// How often an operation asks whether to go on, and that it stops when told.
+/// How often a derivation asks whether to go on, in all and before its first
+/// operation is done; and that it stops when told.
+fn asked(outline: &Polygon<f64>, rules: &str) -> [usize; 2] {
+    let grammar = grammar(rules);
+    let [mut asked, mut first] = [0; 2];
+    let options = DeriveOptions {
+        time: None,
+        ..DeriveOptions::default()
+    };
+    let all = grammar.derive_watched(outline, &options, &mut |operations| {
+        asked += 1;
+        first += usize::from(operations <= 1);
+        true
+    });
+    assert!(all.is_ok(), "{rules}: {:?}", all.err());
+    for stop in [first / 2, asked / 2] {
+        let mut left = stop.max(1);
+        let half = grammar.derive_watched(outline, &options, &mut |_| {
+            left -= 1;
+            left > 0
+        });
+        assert_eq!(half, Err(ParkError::Cancelled), "{rules}");
+        assert_eq!(left, 0, "{rules}");
+    }
+    [asked, first]
+}
+
 #[test]
 fn long_operations_ask_whether_to_go_on() {
     for (rules, least) in [
@@ -97,24 +130,53 @@ fn long_operations_ask_whether_to_go_on() {
         ("Region -> VoronoiRegions(Spots, width = 0.1) { Lawn }\nSpots -> ScatterCircles(300 {0.5})", 10),
         ("Region -> CastRays(CENTRE, 3600) { Lawn }", 50),
     ] {
-        let grammar = grammar(rules);
-        let mut asked = 0;
-        let options = DeriveOptions {
-            time: None,
-            ..DeriveOptions::default()
-        };
-        let all = grammar.derive_watched(&square(80.0), &options, &mut |_| {
-            asked += 1;
-            true
-        });
-        assert!(all.is_ok() && asked >= least, "{rules}: {asked} {:?}", all.err());
-        let mut left = asked / 2;
-        let half = grammar.derive_watched(&square(80.0), &options, &mut |_| {
-            left -= 1;
-            left > 0
-        });
-        assert_eq!(half, Err(ParkError::Cancelled), "{rules}");
-        assert_eq!(left, 0, "{rules}");
+        let [asked, _] = asked(&square(80.0), rules);
+        assert!(asked >= least, "{rules}: {asked}");
+    }
+}
+
+/// So do those that are one boolean after the other: `least` is what they have.
+#[test]
+fn strips_ask_whether_to_go_on() {
+    let strips = "0.1 m: Lawn | ".repeat(100);
+    let ranges: Vec<String> = (0..100)
+        .map(|k| format!("[0.{k:02}1, 0.{k:02}5]"))
+        .collect();
+    let ranges = ranges.join(", ");
+    for (rules, least) in [
+        (format!("Region -> Peel(ALL) {{ {strips} Lawn }}"), 400),
+        (
+            format!("Region -> Peel(ALL, smooth = average) {{ {strips} Lawn }}"),
+            600,
+        ),
+        (
+            format!("Region -> Sweep(Part(ALL, {ranges})) {{ Hedge }}"),
+            200,
+        ),
+        (
+            "Region -> Rings(100 {0.2}, width = 0.1) { Lawn }".to_owned(),
+            200,
+        ),
+    ] {
+        let [_, first] = asked(&square(80.0), &rules);
+        assert!(first >= least, "{rules}: {first}");
+    }
+    // A star of a thousand points: as many edges to be moved.
+    let star = (0..2000).map(|k| {
+        let (sin, cos) = (f64::from(k) * std::f64::consts::PI / 1000.0).sin_cos();
+        let radius = if k % 2 == 0 { 80.0 } else { 79.9 };
+        coord! { x: radius * cos, y: radius * sin }
+    });
+    let star = Polygon::new(star.collect(), vec![]);
+    for (rules, least) in [
+        ("Region -> Peel(ALL, 2 m) { Lawn | Meadow }", 2000),
+        ("Region -> Contract(2 m) { Lawn | Meadow }", 2000),
+        ("Region -> Smooth(average, margin = 2 m) { Lawn | Meadow }", 2000),
+        // Each crosses a thousand points.
+        ("Region -> SplitAlong((0, 0.5), (1, 0.5), curve = sinus, amplitude = 5 m, waves = 100) { Lawn | Meadow | Paving }", 8),
+    ] {
+        let [_, first] = asked(&star, rules);
+        assert!(first >= least, "{rules}: {first}");
     }
 }
 

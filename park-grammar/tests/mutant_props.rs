@@ -1,6 +1,8 @@
 //! Broken grammars: whatever is changed in a grammar, deriving it comes to an end,
 //! with a park that tiles its outline or an error, and never a panic.
 
+mod common;
+
 use std::time::Duration;
 
 use park_grammar::geo_types::{polygon, Polygon};
@@ -9,12 +11,11 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::Index;
 
-/// Few cases, or with `URBAN_LAYOUT_LONG` many.
+/// As others, with less patience to make what fails small.
 fn config(few: u32, many: u32) -> ProptestConfig {
-    let long = std::env::var_os("URBAN_LAYOUT_LONG").is_some();
     ProptestConfig {
         max_shrink_iters: 200,
-        ..ProptestConfig::with_cases(if long { many } else { few })
+        ..common::config(few, many)
     }
 }
 

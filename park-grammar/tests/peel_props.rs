@@ -4,10 +4,11 @@
 mod common;
 
 use common::{
-    config, has_no_hairs, is_image, is_tiled, of, outline, park, polygon, stairs, total, Motion,
+    any_outline, config, has_no_hairs, is_image, is_tiled, mirrors, of, outline, park, rectangle,
+    total, Motion,
 };
 use park_grammar::geo_types::{Coord, Polygon};
-use park_grammar::{ParkError, Scene};
+use park_grammar::Scene;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -57,24 +58,11 @@ fn flags() -> impl Strategy<Value = &'static str> {
     ]
 }
 
-fn any_outline() -> impl Strategy<Value = Polygon<f64>> {
-    prop_oneof![2 => outline(), 1 => stairs()]
-}
+/// Why nothing may be peeled.
+const KNOWN: [&str; 3] = ["leaves nothing", "nothing to peel", "too thin"];
 
 fn derived(outline: &Polygon<f64>, rules: &str, seed: u64) -> Result<Option<Scene>, TestCaseError> {
-    match park(outline, rules, seed) {
-        Ok(scene) => Ok(Some(scene)),
-        Err(error @ ParkError::Rule(_)) => {
-            let said = error.to_string();
-            let known = ["leaves nothing", "nothing to peel", "too thin"];
-            prop_assert!(known.iter().any(|k| said.contains(k)), "{}", said);
-            Ok(None)
-        }
-        Err(error) => {
-            prop_assert!(false, "{}", error);
-            Ok(None)
-        }
-    }
+    common::derived(outline, rules, seed, &KNOWN)
 }
 
 proptest! {
@@ -84,7 +72,7 @@ proptest! {
     /// region does not suit and the error says why.
     #[test]
     fn strips_and_rests_tile_any_region(
-        outline in any_outline(),
+        outline in any_outline(2),
         selection in selection(),
         size in size_of(),
         flags in flags(),
@@ -107,7 +95,7 @@ proptest! {
     /// remember.
     #[test]
     fn peels_of_peels_tile_any_region(
-        outline in any_outline(),
+        outline in any_outline(2),
         first in (selection(), size_of(), flags()),
         second in (prop_oneof![Just("PI"), Just("PB"), Just("PS"), Just("OUTER"), Just("not PI"), Just("History(\"Peel\", INNER, 0)")], 0.05..0.6_f64, flags()),
         points in vec((-80.0..80.0_f64, -80.0..80.0_f64), 30),
@@ -126,7 +114,7 @@ proptest! {
     /// Several strips at once are the same as one after the other.
     #[test]
     fn strips_follow_each_other(
-        outline in any_outline(),
+        outline in any_outline(2),
         selection in selection(),
         sizes in (1.0..4.0_f64, 1.0..4.0_f64),
         points in vec((-80.0..80.0_f64, -80.0..80.0_f64), 10),
@@ -147,7 +135,7 @@ proptest! {
     /// and none of the strip is farther than its mitres reach. Shares are of the
     /// radius of the largest circle if all is peeled.
     #[test]
-    fn strips_are_deep_as_asked(outline in any_outline(), share in 0.05..0.3_f64) {
+    fn strips_are_deep_as_asked(outline in any_outline(2), share in 0.05..0.3_f64) {
         let scene = derived(&outline, &format!("Region -> Peel(ALL, {share}) {{ Meadow | Sand }}"), 0)?;
         let scene = scene.expect("something is left");
         let nearest = |p: Coord<f64>| common::clearance(&outline, p);
@@ -167,7 +155,7 @@ proptest! {
     /// since what share 1 is may be less by a search's 0.2 % in long strips.
     #[test]
     fn peels_move_with_the_region(
-        outline in any_outline(),
+        outline in any_outline(2),
         size in metres(),
         flags in flags(),
         angle in -3.2..3.2_f64,
@@ -212,7 +200,7 @@ proptest! {
     /// of what was left, moves and turns too.
     #[test]
     fn peels_of_peels_move_with_the_region(
-        outline in any_outline(),
+        outline in any_outline(2),
         size in 0.5..6.0_f64,
         (strip, by_what) in prop_oneof![
             Just((true, "PB")), Just((true, "PI")), Just((true, "PS")), Just((false, "PI")), Just((false, "PS"))
@@ -239,12 +227,10 @@ proptest! {
         flags in flags(),
     ) {
         let rules = format!("Region -> Grid(2, 2) {{ Cell }} {{ Paving }}\nCell -> Peel({selection}, {size}{flags}) {{ Strip | Rest }}\nStrip -> Meadow Place((0.2, 0.3)) {{ Bush }}\nRest -> Peel(EDGE[2], 0.2) {{ Sand | Soil }}");
-        let outline = polygon(&[(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)]);
-        let scene = park(&outline, &rules, 3).expect("derives");
-        let upright = Motion { angle: 0.0, mirror: true, by: Coord { x: width, y: 0.0 } };
-        is_image(&scene, &scene, upright, 1e-6)?;
-        let half = Motion { angle: std::f64::consts::PI, mirror: true, by: Coord { x: 0.0, y: height } };
-        is_image(&scene, &scene, half, 1e-6)?;
+        let scene = park(&rectangle(width, height), &rules, 3).expect("derives");
+        for mirror in mirrors(width, height) {
+            is_image(&scene, &scene, mirror, 1e-6)?;
+        }
         let count = scene.objects.len();
         prop_assert!(count.is_multiple_of(4), "{count}");
     }

@@ -1,11 +1,14 @@
 //! Plans of parks: whole documents, the same for the same park, with what the park
 //! has in their legend.
 
+mod common;
+
 use std::collections::BTreeSet;
 
-use park_grammar::geo_types::{polygon, Polygon};
 use park_grammar::picture::{PictureOptions, SheetOptions, ViewersFont};
-use park_grammar::{DeriveOptions, Grammar, Scene};
+use park_grammar::Scene;
+
+use common::park_with_mesh;
 
 const RULES: &str = "grammar 1
 param Oak = Object(radius = 0.5, spread = 4 m, height = 14 m, colour = \"#8a9a3f\")
@@ -17,15 +20,8 @@ Quarter -> Place((0.3, 0.3)) { Circle(3) Water }
 
 const STONE: &str = "v 1 0 0\nv -1 0 1\nv -1 0 -1\nv 0 1 0\nf 1 4 2\nf 2 4 3\nf 3 4 1\n";
 
-fn outline(x: f64, y: f64) -> Polygon<f64> {
-    polygon![(x: x, y: y), (x: x + 80., y: y), (x: x + 80., y: y + 60.), (x: x, y: y + 60.)]
-}
-
 fn park(x: f64, y: f64) -> Scene {
-    let load = |_: &str| Ok(STONE.to_owned());
-    Grammar::with_includes("park", RULES, &load)
-        .and_then(|grammar| grammar.derive(&outline(x, y), &DeriveOptions::default()))
-        .expect("derives")
+    park_with_mesh(RULES, STONE, x, y)
 }
 
 /// What stands between two marks, for each time the first comes.

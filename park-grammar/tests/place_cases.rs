@@ -1,12 +1,16 @@
 //! What operations put where, by examples with known answers.
 
+mod common;
+
 use park_grammar::geo_types::{polygon, Coord, Polygon};
 use park_grammar::scene::{Ground, Object};
 use park_grammar::{DeriveOptions, Grammar, ParkError, Scene};
 
+use common::size;
+
 /// 80 wide, 50 high.
 fn rectangle() -> Polygon<f64> {
-    polygon![(x: 0., y: 0.), (x: 80., y: 0.), (x: 80., y: 50.), (x: 0., y: 50.)]
+    common::rectangle(80., 50.)
 }
 
 /// A square of 40 without its north-eastern quarter.
@@ -18,8 +22,7 @@ fn bend() -> Polygon<f64> {
 }
 
 fn on(park: &Polygon<f64>, rules: &str) -> Result<Scene, ParkError> {
-    let grammar = Grammar::new(&format!("grammar 1\n{rules}"))?;
-    grammar.derive(park, &DeriveOptions::default())
+    common::park(park, rules, 0)
 }
 
 fn derive(rules: &str) -> Scene {
@@ -32,14 +35,6 @@ fn near(a: Coord<f64>, x: f64, y: f64) -> bool {
 
 fn has(objects: &[Object], x: f64, y: f64) -> bool {
     objects.iter().any(|o| near(o.at, x, y))
-}
-
-fn size(polygon: &Polygon<f64>) -> f64 {
-    let ring = |line: &park_grammar::geo_types::LineString<f64>| -> f64 {
-        let doubled: f64 = line.lines().map(|l| l.determinant()).sum();
-        doubled.abs() / 2.0
-    };
-    ring(polygon.exterior()) - polygon.interiors().iter().map(ring).sum::<f64>()
 }
 
 #[test]

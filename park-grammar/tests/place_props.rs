@@ -1,8 +1,12 @@
 //! Laws of placing, on random outlines.
 
-use park_grammar::geo_types::{coord, Coord, LineString, Polygon};
-use park_grammar::{DeriveOptions, Grammar, Scene};
+mod common;
+
+use park_grammar::geo_types::{coord, LineString, Polygon};
+use park_grammar::Scene;
 use proptest::prelude::*;
+
+use common::{clearance, config, mapped, size, within};
 
 /// Grammars that put things in every way.
 const GRAMMARS: [&str; 8] = [
@@ -15,11 +19,6 @@ const GRAMMARS: [&str; 8] = [
     "Region -> Distribute(Part(ALL, [0.2, 0.9]): 1.5, 3, Through) { Circle(0.8) Soil Tree }",
     "Region -> Distribute(Parametrise([0.1, 0.9], [0, 0.5], inset = 2), 2, Middles) { Lamp } Place(CORNER[0], CORNER[2], Along(ALL, 7)) { Bench }",
 ];
-
-fn cases(few: u32) -> ProptestConfig {
-    let long = std::env::var_os("URBAN_LAYOUT_LONG").is_some();
-    ProptestConfig::with_cases(if long { 100 * few } else { few })
-}
 
 /// Star-shaped outlines of 4 to 24 vertices, turned and moved.
 fn outlines() -> impl Strategy<Value = Polygon<f64>> {
@@ -34,51 +33,8 @@ fn outlines() -> impl Strategy<Value = Polygon<f64>> {
     })
 }
 
-fn derive(rules: &str, park: &Polygon<f64>, seed: u64) -> Scene {
-    let grammar = Grammar::new(&format!("grammar 1\n{rules}")).expect("reads");
-    let options = DeriveOptions {
-        seed,
-        ..DeriveOptions::default()
-    };
-    grammar.derive(park, &options).expect("derives")
-}
-
-fn rings(polygon: &Polygon<f64>) -> impl Iterator<Item = &LineString<f64>> {
-    std::iter::once(polygon.exterior()).chain(polygon.interiors())
-}
-
-fn contains(polygon: &Polygon<f64>, p: Coord<f64>) -> bool {
-    let crossed = rings(polygon).flat_map(LineString::lines).filter(|l| {
-        let (a, b) = (l.start, l.end);
-        (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) * (b.x - a.x) / (b.y - a.y)
-    });
-    crossed.count() % 2 == 1
-}
-
-fn away(polygon: &Polygon<f64>, p: Coord<f64>) -> f64 {
-    let to = |l: park_grammar::geo_types::Line<f64>| {
-        let (d, v) = (l.end - l.start, p - l.start);
-        let t = ((v.x * d.x + v.y * d.y) / (d.x * d.x + d.y * d.y)).clamp(0.0, 1.0);
-        (v.x - t * d.x).hypot(v.y - t * d.y)
-    };
-    let lines = rings(polygon).flat_map(LineString::lines);
-    lines.map(to).fold(f64::INFINITY, f64::min)
-}
-
-fn size(polygon: &Polygon<f64>) -> f64 {
-    let origin = polygon.exterior().0[0];
-    let ring = |line: &LineString<f64>| {
-        let doubled: f64 = line
-            .lines()
-            .map(|l| {
-                let (a, b) = (l.start - origin, l.end - origin);
-                a.x * b.y - a.y * b.x
-            })
-            .sum();
-        doubled.abs() / 2.0
-    };
-    let holes: f64 = polygon.interiors().iter().map(ring).sum();
-    ring(polygon.exterior()) - holes
+fn derive(rules: &str, outline: &Polygon<f64>, seed: u64) -> Scene {
+    common::park(outline, rules, seed).expect("derives")
 }
 
 /// That every footprint lies on one piece of ground, clear of all others, of
@@ -86,9 +42,9 @@ fn size(polygon: &Polygon<f64>) -> f64 {
 fn lawful(scene: &Scene, park: &Polygon<f64>) -> Result<(), TestCaseError> {
     let eps = 1e-5;
     for (k, object) in scene.objects.iter().enumerate() {
-        prop_assert!(contains(park, object.at), "outside {object:?}");
+        prop_assert!(within(park, object.at), "outside {object:?}");
         prop_assert!(
-            away(park, object.at) >= object.radius - eps,
+            clearance(park, object.at) >= object.radius - eps,
             "over the edge {object:?}"
         );
         for other in &scene.objects[..k] {
@@ -99,16 +55,16 @@ fn lawful(scene: &Scene, park: &Polygon<f64>) -> Result<(), TestCaseError> {
             );
         }
         for volume in &scene.volumes {
-            prop_assert!(!contains(&volume.polygon, object.at));
-            prop_assert!(away(&volume.polygon, object.at) >= object.radius - eps);
+            prop_assert!(!within(&volume.polygon, object.at));
+            prop_assert!(clearance(&volume.polygon, object.at) >= object.radius - eps);
         }
         let under = scene
             .pieces
             .iter()
-            .filter(|p| contains(&p.polygon, object.at));
+            .filter(|p| within(&p.polygon, object.at));
         let under: Vec<_> = under.collect();
         prop_assert_eq!(under.len(), 1);
-        prop_assert!(away(&under[0].polygon, object.at) >= object.radius - eps);
+        prop_assert!(clearance(&under[0].polygon, object.at) >= object.radius - eps);
         prop_assert_eq!(under[0].ground, object.ground);
     }
     let volumes: f64 = scene.volumes.iter().map(|v| size(&v.polygon)).sum();
@@ -123,7 +79,7 @@ fn lawful(scene: &Scene, park: &Polygon<f64>) -> Result<(), TestCaseError> {
 }
 
 proptest! {
-    #![proptest_config(cases(48))]
+    #![proptest_config(config(48, 4800))]
 
     #[test]
     fn things_have_their_own_ground(park in outlines(), k in 0..8usize, seed in any::<u64>()) {
@@ -137,8 +93,7 @@ proptest! {
     fn rows_move_with_the_park(park in outlines(), x in -500.0..500.0f64, y in -500.0..500.0f64) {
         let rules = "Region -> Sweep(NORTH: 0.5, 0.8) { Hedge } Distribute(SOUTH: 1, 3) { Bush }";
         let by = coord! { x: x, y: y };
-        let ring = park.exterior().0.iter().map(|&c| c + by).collect();
-        let moved = Polygon::new(LineString(ring), Vec::new());
+        let moved = mapped(&park, |c| c + by);
         let (a, b) = (derive(rules, &park, 1), derive(rules, &moved, 1));
         prop_assert_eq!(a.objects.len(), b.objects.len());
         for (p, q) in a.objects.iter().zip(&b.objects) {

@@ -1,17 +1,16 @@
 //! One rule for mirrored cells puts mirrored things.
 
-use park_grammar::geo_types::{polygon, Coord, Polygon};
-use park_grammar::{DeriveOptions, Grammar, Scene};
+mod common;
 
-fn derive(park: &Polygon<f64>, rules: &str) -> Scene {
-    let grammar = Grammar::new(&format!("grammar 1\n{rules}")).expect("reads");
-    grammar
-        .derive(park, &DeriveOptions::default())
-        .expect("derives")
+use park_grammar::geo_types::{Coord, Polygon};
+use park_grammar::Scene;
+
+fn derive(outline: &Polygon<f64>, rules: &str) -> Scene {
+    common::park(outline, rules, 0).expect("derives")
 }
 
 fn rectangle() -> Polygon<f64> {
-    polygon![(x: 0., y: 0.), (x: 80., y: 0.), (x: 80., y: 50.), (x: 0., y: 50.)]
+    common::rectangle(80., 50.)
 }
 
 const CELLS: [&str; 10] = [

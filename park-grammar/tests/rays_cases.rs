@@ -3,31 +3,17 @@
 mod common;
 
 use park_grammar::geo_types::{polygon, LineString, Polygon};
-use park_grammar::scene::Piece;
 use park_grammar::Scene;
 
-use common::{park, size};
+use common::{close, of, park, rectangle, size, sum};
 
 /// 40 wide and high.
 fn square() -> Polygon<f64> {
-    polygon![(x: 0., y: 0.), (x: 40., y: 0.), (x: 40., y: 40.), (x: 0., y: 40.)]
+    rectangle(40., 40.)
 }
 
 fn derive(rules: &str) -> Scene {
     park(&square(), rules, 1).expect("derives")
-}
-
-fn of<'s>(scene: &'s Scene, material: &str) -> Vec<&'s Piece> {
-    let pieces = scene.pieces.iter();
-    pieces.filter(|p| p.material == material).collect()
-}
-
-fn total(pieces: &[&Piece]) -> f64 {
-    pieces.iter().map(|p| size(&p.polygon)).sum()
-}
-
-fn near(a: f64, b: f64) -> bool {
-    (a - b).abs() < 1e-6
 }
 
 /// The area of a circle of 36 corners.
@@ -47,7 +33,7 @@ fn rays_to_the_corners() {
     let base = 40.0 - 2.0 * 2.0_f64.sqrt();
     assert!(cells
         .iter()
-        .all(|c| near(size(&c.polygon), base * base / 4.0)));
+        .all(|c| close(size(&c.polygon), base * base / 4.0)));
     assert_eq!(of(&scene, "Paving").len(), 1);
 }
 
@@ -63,7 +49,7 @@ fn the_notes_example() {
         CutRegion -> Meadow",
     );
     assert_eq!(of(&scene, "Meadow").len(), 4);
-    assert!(near(total(&of(&scene, "Sand")), circle(5.0)));
+    assert!(close(sum(&of(&scene, "Sand")), circle(5.0)));
     assert_eq!(scene.objects.len(), 1);
     // Four paths, cut off by the centre.
     assert_eq!(of(&scene, "Gravel").len(), 4);
@@ -75,15 +61,15 @@ fn the_notes_example() {
 fn sizes_without_a_block_belong_to_the_path() {
     let with = derive("Region -> CastRays(CENTRE[8], 4) { Meadow } { Paving }");
     let without = derive("Region -> CastRays(CENTRE, 4) { Meadow } { Paving }");
-    assert!(near(total(&of(&without, "Paving")), 2.0 * 80.0 - 4.0));
+    assert!(close(sum(&of(&without, "Paving")), 2.0 * 80.0 - 4.0));
     // The cross of 2 m within the circle, by slices of the polygon's edges.
-    let more = total(&of(&with, "Paving")) - total(&of(&without, "Paving"));
+    let more = sum(&of(&with, "Paving")) - sum(&of(&without, "Paving"));
     assert!(
         more > circle(8.0) - 2.0 * 32.0 && more < circle(8.0) - 2.0 * 32.0 + 5.0,
         "{more}"
     );
     let scattered = derive("Region -> CastRays(ScatterCircles(1 {15}), 4) { Meadow } { Paving }");
-    assert!(near(total(&of(&scattered, "Paving")), 156.0));
+    assert!(close(sum(&of(&scattered, "Paving")), 156.0));
 }
 
 /// Directions: a number of them from north on, a list, one.
@@ -102,9 +88,9 @@ fn rays_in_directions() {
     assert_eq!(count("45 deg"), 1);
     // North and south: halves.
     let scene = derive("Region -> CastRays(CENTRE, 2) { Meadow } {}");
-    assert!(scene.pieces.iter().all(|p| near(size(&p.polygon), 800.0)));
+    assert!(scene.pieces.iter().all(|p| close(size(&p.polygon), 800.0)));
     let scene = derive("Region -> CastRays(CENTRE, 2, from = 45) { Meadow } {}");
-    assert!(scene.pieces.len() == 2 && near(size(&scene.pieces[0].polygon), 800.0));
+    assert!(scene.pieces.len() == 2 && close(size(&scene.pieces[0].polygon), 800.0));
 }
 
 /// Two centres and the corners of a square, in the order of the walk-graph.
@@ -145,7 +131,7 @@ fn no_paths_lead_outside() {
         let rules = format!("Region -> CastRays((0.25, 0.9), [CORNER[3], CORNER[4]]{more}) {{ Meadow }} {{ Paving }}");
         let scene = park(&l, &rules, 0).expect("derives");
         let all: f64 = scene.pieces.iter().map(|p| size(&p.polygon)).sum();
-        assert!(near(all, 1200.0));
+        assert!(close(all, 1200.0));
         of(&scene, "Meadow").len()
     };
     // A way out to the nearest place instead.
@@ -276,5 +262,5 @@ fn centres_as_wide_as_paths_are_clean() {
         (of(&scene, "Paving").len(), of(&scene, "Sand").len()),
         (1, 1)
     );
-    assert!(near(total(&of(&scene, "Sand")), circle(2.0)));
+    assert!(close(sum(&of(&scene, "Sand")), circle(2.0)));
 }

@@ -4,16 +4,13 @@
 mod common;
 
 use common::{
-    config, has_no_hairs, is_image, is_tiled, of, outline, park, polygon, stairs, Motion,
+    any_outline, config, has_no_hairs, is_image, is_tiled, mirrors, of, park, polygon, rectangle,
+    Motion,
 };
 use park_grammar::geo_types::{Coord, Polygon};
-use park_grammar::{ParkError, Scene};
+use park_grammar::Scene;
 use proptest::collection::vec;
 use proptest::prelude::*;
-
-fn any_outline() -> impl Strategy<Value = Polygon<f64>> {
-    prop_oneof![2 => outline(), 1 => stairs()]
-}
 
 /// Contractions of every sort.
 fn contract() -> impl Strategy<Value = String> {
@@ -141,29 +138,20 @@ fn any_rule() -> impl Strategy<Value = String> {
     prop_oneof![contract(), rings(), smooth(), split()]
 }
 
+/// Why a region may not be divided.
+const KNOWN: [&str; 8] = [
+    "nothing is left",
+    "no room",
+    "paths meet",
+    "no part of these",
+    "does not divide",
+    "no such place",
+    "one and the same",
+    "nothing",
+];
+
 fn derived(outline: &Polygon<f64>, rules: &str) -> Result<Option<Scene>, TestCaseError> {
-    match park(outline, rules, 7) {
-        Ok(scene) => Ok(Some(scene)),
-        Err(ParkError::Rule(found)) => {
-            let said = found.to_string();
-            let known = [
-                "nothing is left",
-                "no room",
-                "paths meet",
-                "no part of these",
-                "does not divide",
-                "no such place",
-                "one and the same",
-                "nothing",
-            ];
-            prop_assert!(known.iter().any(|k| said.contains(k)), "{}", said);
-            Ok(None)
-        }
-        Err(error) => {
-            prop_assert!(false, "{}", error);
-            Ok(None)
-        }
-    }
+    common::derived(outline, rules, 7, &KNOWN)
 }
 
 proptest! {
@@ -173,7 +161,7 @@ proptest! {
     /// not suit and the error says why.
     #[test]
     fn all_tile_any_region(
-        outline in any_outline(),
+        outline in any_outline(2),
         rule in any_rule(),
         points in vec((-80.0..80.0_f64, -80.0..80.0_f64), 30),
     ) {
@@ -191,7 +179,7 @@ proptest! {
     /// grammar wants none.
     #[test]
     fn nested_rules_tile_any_region(
-        outline in any_outline(),
+        outline in any_outline(2),
         first in any_rule(),
         second in any_rule(),
         holes in any::<bool>(),
@@ -211,7 +199,7 @@ proptest! {
     /// They move with their region; what goes by no direction turns and mirrors too.
     #[test]
     fn all_move_with_the_region(
-        outline in any_outline(),
+        outline in any_outline(2),
         rule in sound_rule(),
         angle in -3.2..3.2_f64,
         mirror in any::<bool>(),
@@ -247,12 +235,10 @@ proptest! {
     ) {
         prop_assume!(!rule.contains("[2, 9]"));
         let rules = format!("Region -> Grid(2, 2) {{ Cell }} {{ Asphalt }}\nCell -> {rule} else {{ Soil }}");
-        let outline = polygon(&[(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)]);
-        let scene = park(&outline, &rules, 3).expect("derives");
-        let upright = Motion { angle: 0.0, mirror: true, by: Coord { x: width, y: 0.0 } };
-        is_image(&scene, &scene, upright, 1e-6)?;
-        let half = Motion { angle: std::f64::consts::PI, mirror: true, by: Coord { x: 0.0, y: height } };
-        is_image(&scene, &scene, half, 1e-6)?;
+        let scene = park(&rectangle(width, height), &rules, 3).expect("derives");
+        for mirror in mirrors(width, height) {
+            is_image(&scene, &scene, mirror, 1e-6)?;
+        }
     }
 
     /// A contraction by a share is the whole at that scale; one by metres keeps

@@ -1,6 +1,8 @@
 //! Laws of the language: what is printed is read as it was, and no text, however
 //! broken, makes the parser panic or hang.
 
+mod common;
+
 use park_grammar::syntax::ast::{
     Argument, BinaryOp, Block, Body, Branch, Expr, ExprKind, File, Head, Item, ItemKind, Meaning,
     Name, Operation, Size, Span, Text, UnaryOp, Unit,
@@ -10,11 +12,7 @@ use proptest::collection::vec;
 use proptest::option;
 use proptest::prelude::*;
 
-/// Few cases, or with `URBAN_LAYOUT_LONG` many.
-fn config(few: u32, many: u32) -> ProptestConfig {
-    let long = std::env::var_os("URBAN_LAYOUT_LONG").is_some();
-    ProptestConfig::with_cases(if long { many } else { few })
-}
+use common::config;
 
 fn read(text: &str) -> Result<File, park_grammar::syntax::Diagnostics> {
     let mut sources = Sources::default();

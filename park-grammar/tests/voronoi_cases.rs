@@ -3,31 +3,18 @@
 mod common;
 
 use park_grammar::geo_types::{polygon, Polygon};
-use park_grammar::scene::{Ground, Piece};
+use park_grammar::scene::Ground;
 use park_grammar::Scene;
 
-use common::{park, size};
+use common::{close, of, park, rectangle, size, sum};
 
 /// 60 wide, 40 high.
-fn rectangle() -> Polygon<f64> {
-    polygon![(x: 0., y: 0.), (x: 60., y: 0.), (x: 60., y: 40.), (x: 0., y: 40.)]
+fn oblong() -> Polygon<f64> {
+    rectangle(60., 40.)
 }
 
 fn derive(rules: &str) -> Scene {
-    park(&rectangle(), rules, 1).expect("derives")
-}
-
-fn of<'s>(scene: &'s Scene, material: &str) -> Vec<&'s Piece> {
-    let pieces = scene.pieces.iter();
-    pieces.filter(|p| p.material == material).collect()
-}
-
-fn total(pieces: &[&Piece]) -> f64 {
-    pieces.iter().map(|p| size(&p.polygon)).sum()
-}
-
-fn near(a: f64, b: f64) -> bool {
-    (a - b).abs() < 1e-6
+    park(&oblong(), rules, 1).expect("derives")
 }
 
 /// Two places: one border in the middle, half of its width taken from each.
@@ -36,9 +23,9 @@ fn regions_give_way_to_the_paths() {
     let scene = derive("PathWidth = 3\nRegion -> VoronoiRegions([(0.25, 0.5), (0.75, 0.5)], none) { Meadow } { Paving }");
     let regions = of(&scene, "Meadow");
     assert_eq!(regions.len(), 2);
-    assert!(regions.iter().all(|p| near(size(&p.polygon), 28.5 * 40.0)));
+    assert!(regions.iter().all(|p| close(size(&p.polygon), 28.5 * 40.0)));
     let paths = of(&scene, "Paving");
-    assert!(paths.len() == 1 && near(size(&paths[0].polygon), 120.0));
+    assert!(paths.len() == 1 && close(size(&paths[0].polygon), 120.0));
     assert_eq!(paths[0].ground, Ground::Path);
 }
 
@@ -51,13 +38,13 @@ fn the_notes_examples() {
     let scene = derive(&rules("VoronoiSmoothed"));
     assert_eq!(scene, derive(&rules("VoronoiRegions")));
     assert_eq!(of(&scene, "Meadow").len(), 5);
-    assert!(near(
-        total(&of(&scene, "Meadow")) + total(&of(&scene, "Gravel")),
+    assert!(close(
+        sum(&of(&scene, "Meadow")) + sum(&of(&scene, "Gravel")),
         2400.0
     ));
     let sharp =
         derive("Region -> VoronoiRegions(ScatterCircles(5 {[5-10]}), none) { Meadow } { Gravel }");
-    assert!(total(&of(&scene, "Gravel")) > total(&of(&sharp, "Gravel")) + 1.0);
+    assert!(sum(&of(&scene, "Gravel")) > sum(&of(&sharp, "Gravel")) + 1.0);
 }
 
 /// A path of its own width all around: what is left is 28.5 - 2 by 36.
@@ -69,7 +56,7 @@ fn a_path_all_around() {
     ));
     assert!(of(&scene, "Meadow")
         .iter()
-        .all(|p| near(size(&p.polygon), 26.5 * 36.0)));
+        .all(|p| close(size(&p.polygon), 26.5 * 36.0)));
     assert_eq!(of(&scene, "Paving").len(), 1);
     assert_eq!(of(&scene, "Paving")[0].polygon.interiors().len(), 2);
     let scene = derive(&format!(
@@ -77,7 +64,7 @@ fn a_path_all_around() {
     ));
     assert!(of(&scene, "Meadow")
         .iter()
-        .all(|p| near(size(&p.polygon), 25.5 * 34.0)));
+        .all(|p| close(size(&p.polygon), 25.5 * 34.0)));
 }
 
 /// Weights: with radii of 10 and 5 at 30 from each other the border lies where
@@ -87,7 +74,7 @@ fn larger_circles_grow_further() {
     let places = "Places[10], Others[5]";
     let rules = format!("fun Places = Along(EDGE[1], at = 0.25, offset = 20)\nfun Others = 1\nRegion -> VoronoiRegions([{places}], Weighted) {{ Meadow }} {{}}");
     // What has no places has none.
-    assert!(park(&rectangle(), &rules, 1).is_err());
+    assert!(park(&oblong(), &rules, 1).is_err());
     let rules = "Region -> VoronoiRegions([One, Two], Weighted) { Meadow } {}\nfun One() = Along(EDGE[1], at = 0.25, offset = 20)[10]\nfun Two() = Along(EDGE[1], at = 0.75, offset = 20)[5]";
     let rules = rules.replace("[One, Two]", "[One(), Two()]");
     let scene = derive(&rules);
@@ -95,7 +82,7 @@ fn larger_circles_grow_further() {
     sizes.sort_by(f64::total_cmp);
     let border = 15.0 + (30.0_f64.powi(2) + 75.0) / 60.0;
     assert!(
-        near(sizes[1], 40.0 * border) && near(sizes[0], 40.0 * (60.0 - border)),
+        close(sizes[1], 40.0 * border) && close(sizes[0], 40.0 * (60.0 - border)),
         "{sizes:?}"
     );
 }
@@ -106,11 +93,13 @@ fn larger_circles_grow_further() {
 fn centres_are_cut_out() {
     let scene = derive("Region -> VoronoiRegions([(0.25, 0.5), (0.75, 0.5)], none) { Meadow } { Paving } { Square(6) Sand Fountain }");
     let centres = of(&scene, "Sand");
-    assert!(centres.len() == 2 && centres.iter().all(|p| near(size(&p.polygon), 36.0)));
+    assert!(centres.len() == 2 && centres.iter().all(|p| close(size(&p.polygon), 36.0)));
     let mut at: Vec<f64> = scene.objects.iter().map(|o| o.at.x).collect();
     at.sort_by(f64::total_cmp);
     assert!(
-        near(at[0], 15.0) && near(at[1], 45.0) && scene.objects.iter().all(|o| near(o.at.y, 20.0))
+        close(at[0], 15.0)
+            && close(at[1], 45.0)
+            && scene.objects.iter().all(|o| close(o.at.y, 20.0))
     );
     assert!(of(&scene, "Meadow")
         .iter()
@@ -128,11 +117,9 @@ fn centres_are_cut_out() {
 fn centres_without_a_shape_have_the_places_room() {
     let scene = derive("Region -> VoronoiRegions(CENTRE[5], none) { Meadow } { Paving } { Sand }");
     let circle = 36.0 * 0.5 * 25.0 * (std::f64::consts::PI / 18.0).sin();
-    assert!(near(total(&of(&scene, "Sand")), circle));
+    assert!(close(sum(&of(&scene, "Sand")), circle));
     let rules = "Region -> VoronoiRegions(CENTRE) { Meadow } { Paving } { Sand }";
-    let error = park(&rectangle(), rules, 1)
-        .expect_err("no size")
-        .to_string();
+    let error = park(&oblong(), rules, 1).expect_err("no size").to_string();
     assert!(
         error.contains("how large") && error.contains("Circle(2)"),
         "{error}"
@@ -200,7 +187,7 @@ fn faults_are_told() {
         ),
         ("VoronoiRegions((3, 3)) { Meadow }", "none of these places"),
     ] {
-        let error = park(&rectangle(), &format!("Region -> {rules}"), 0);
+        let error = park(&oblong(), &format!("Region -> {rules}"), 0);
         let error = error.expect_err(rules).to_string();
         assert!(error.contains(says), "{rules}: {error}");
     }

@@ -116,6 +116,30 @@ pub enum TraceError {
 }
 
 impl TraceError {
+    /// That an option is above 0.
+    pub(crate) fn unless_positive(name: &'static str, value: f64) -> Result<(), Self> {
+        if value > 0.0 && value.is_finite() {
+            return Ok(());
+        }
+        Err(Self::BadOption {
+            name,
+            value,
+            expected: "positive and finite",
+        })
+    }
+
+    /// That an option is 0 or more.
+    pub(crate) fn unless_not_negative(name: &'static str, value: f64) -> Result<(), Self> {
+        if value >= 0.0 && value.is_finite() {
+            return Ok(());
+        }
+        Err(Self::BadOption {
+            name,
+            value,
+            expected: "zero or positive, and finite",
+        })
+    }
+
     pub(crate) fn no_direction(at: Coord<f64>) -> Self {
         Self::NoDirection { x: at.x, y: at.y }
     }

@@ -72,14 +72,19 @@ pub(crate) fn fit_alignment(
     }
 }
 
-/// Weighted total least squares: a point of the line and its unit direction.
-fn fit_line(points: &[P], weights: &[f64]) -> (P, P) {
+/// The weighted mean of points.
+fn centre(points: &[P], weights: &[f64]) -> P {
     let total: f64 = weights.iter().sum();
-    let o = points
+    points
         .iter()
         .zip(weights)
         .fold(p(0.0, 0.0), |s, (&q, &w)| s + q * w)
-        / total;
+        / total
+}
+
+/// Weighted total least squares: a point of the line and its unit direction.
+fn fit_line(points: &[P], weights: &[f64]) -> (P, P) {
+    let o = centre(points, weights);
     let (mut a, mut b) = (0.0, 0.0);
     for (&q, &w) in points.iter().zip(weights) {
         let r = q - o;
@@ -145,11 +150,7 @@ fn fit_circle(points: &[P], weights: &[f64], last: Option<CircleFit>) -> Option<
 /// Kasa's fit: linear in (centre, |centre|^2 - r^2).
 fn algebraic_circle(points: &[P], weights: &[f64]) -> Option<CircleFit> {
     let total: f64 = weights.iter().sum();
-    let o = points
-        .iter()
-        .zip(weights)
-        .fold(p(0.0, 0.0), |s, (&q, &w)| s + q * w)
-        / total;
+    let o = centre(points, weights);
     let (mut xx, mut xy, mut yy, mut xz, mut yz, mut zz) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
     for (&q, &w) in points.iter().zip(weights) {
         let r = q - o;

@@ -207,12 +207,7 @@ fn fill(
     if !progress.report(Stage::Fill, 0.0) {
         return Err(Error::cancelled());
     }
-    let leaves: Vec<_> = tree
-        .leaves
-        .values()
-        .filter(|l| l.path.is_within(root))
-        .cloned()
-        .collect();
+    let leaves: Vec<_> = tree.within(root).cloned().collect();
     let filled = planner::parallel::map(&leaves, options.threads, |leaf| {
         let region = tree.region(leaf.face, &leaf.path, options.seed);
         let scene = crate::splitter::Scene {

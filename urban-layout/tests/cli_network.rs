@@ -26,6 +26,19 @@ const LAKE: &str = r#"{"type": "FeatureCollection", "coordinate_units": "metres"
 {"type": "Feature", "properties": {"kind": "water"}, "geometry":
 {"type": "Polygon", "coordinates": [[[150, 150], [250, 150], [250, 250], [150, 250], [150, 150]]]}}]}"#;
 
+/// The words that design a network for a site, in the folder `net`.
+fn network<'w>(site: &'w str, more: &[&'w str]) -> Vec<&'w str> {
+    let words = ["network", site, "--out", "net"];
+    [&words[..], more].concat()
+}
+
+/// The figures of a network to a specification, for which there are so many seconds.
+fn designed(bench: &Bench, spec: &str, seconds: &str) -> Value {
+    std::fs::write(bench.path("spec.toml"), spec).expect("written");
+    let more = ["--spec", "spec.toml", "--deadline", seconds, "--json"];
+    json(&bench.expect(0, &network("site.geojson", &more)))
+}
+
 fn points(feature: &Value) -> Vec<(f64, f64)> {
     let all = feature["geometry"]["coordinates"]
         .as_array()
@@ -48,19 +61,7 @@ inside = { parts = { count = 3 }, missing = { weighted = 1.0 } }
 across = { pairs = { between = [[{ u = 0.0, v = 0.5 }, { u = 1.0, v = 0.5 }]] }, missing = { weighted = 5.0 } }
 "#;
     let bench = Bench::new();
-    std::fs::write(bench.path("spec.toml"), spec).expect("written");
-    let words = [
-        "network",
-        "site.geojson",
-        "--spec",
-        "spec.toml",
-        "--deadline",
-        "1.0",
-        "--out",
-        "net",
-        "--json",
-    ];
-    let figures = json(&bench.expect(0, &words));
+    let figures = designed(&bench, spec, "1.0");
     let level = &figures["levels"][0];
     assert_eq!(level["placed_sinks"], 2);
     // Three parts are joined in a row or all to all.
@@ -80,19 +81,7 @@ across = { pairs = { between = [[{ u = 0.0, v = 0.5 }, { u = 1.0, v = 0.5 }]] },
 #[test]
 fn a_network_is_designed_and_drawn() {
     let bench = Bench::new();
-    std::fs::write(bench.path("spec.toml"), SPEC).expect("written");
-    let words = [
-        "network",
-        "site.geojson",
-        "--spec",
-        "spec.toml",
-        "--deadline",
-        "1.0",
-        "--out",
-        "net",
-        "--json",
-    ];
-    let figures = json(&bench.expect(0, &words));
+    let figures = designed(&bench, SPEC, "1.0");
     assert_eq!(
         names(&bench.path("net")),
         [
@@ -158,18 +147,10 @@ fn a_network_is_designed_and_drawn() {
 #[test]
 fn files_for_sumo_are_written() {
     let bench = Bench::new();
-    let words = [
-        "network",
+    let words = network(
         "site.geojson",
-        "--deadline",
-        "0.5",
-        "--cars",
-        "2000",
-        "--out",
-        "net",
-        "--sumo",
-        "--json",
-    ];
+        &["--deadline", "0.5", "--cars", "2000", "--sumo", "--json"],
+    );
     let figures = json(&bench.expect(0, &words));
     let written = names(&bench.path("net"));
     for end in ["nod.xml", "edg.xml", "typ.xml", "trips.xml", "sumocfg"] {
@@ -192,19 +173,7 @@ fn demand_is_part_of_a_specification() {
     let bench = Bench::new();
     let demand =
         "[demand]\ncars-per-km2 = 0.0\npairs = [{ from = [5, 5], to = [235, 145], cars = 150 }]\n";
-    std::fs::write(bench.path("spec.toml"), demand).expect("written");
-    let words = [
-        "network",
-        "site.geojson",
-        "--spec",
-        "spec.toml",
-        "--deadline",
-        "0.5",
-        "--out",
-        "net",
-        "--json",
-    ];
-    let traffic = &json(&bench.expect(0, &words))["traffic"];
+    let traffic = &designed(&bench, demand, "0.5")["traffic"];
     assert_eq!(traffic["trips"], 300);
     assert_eq!(traffic["cars_per_hour"], 150.0);
     // Along a straight line at least, and not round the whole block.
@@ -217,15 +186,7 @@ fn strange_numbers_of_cars_are_refused() {
     let bench = Bench::new();
     for cars in ["-1", "NaN", "1e12"] {
         let cars = format!("--cars={cars}");
-        let words = [
-            "network",
-            "site.geojson",
-            "--deadline",
-            "0.3",
-            "--out",
-            "net",
-            &cars,
-        ];
+        let words = network("site.geojson", &["--deadline", "0.3", &cars]);
         assert_eq!(bench.run(&words).status.code(), Some(2), "{cars}");
     }
     assert!(!bench.path("net").exists());
@@ -236,17 +197,7 @@ fn strange_numbers_of_cars_are_refused() {
 fn streets_keep_out_of_elements() {
     let bench = Bench::new();
     std::fs::write(bench.path("lake.geojson"), LAKE).expect("written");
-    bench.expect(
-        0,
-        &[
-            "network",
-            "lake.geojson",
-            "--deadline",
-            "0.5",
-            "--out",
-            "net",
-        ],
-    );
+    bench.expect(0, &network("lake.geojson", &["--deadline", "0.5"]));
     let text = std::fs::read_to_string(bench.path("net/network.geojson")).expect("written");
     let streets = json(&text);
     let features = streets["features"].as_array().expect("features");
@@ -273,36 +224,13 @@ fn what_is_wrong_is_said() {
         ("[[level]]\n[level.network]\nobstacles = [9999]", "9999"),
     ] {
         std::fs::write(bench.path("bad.toml"), text).expect("written");
-        let said = stderr(
-            &[
-                "network",
-                "site.geojson",
-                "--spec",
-                "bad.toml",
-                "--out",
-                "net",
-            ],
-            1,
-        );
+        let said = stderr(&network("site.geojson", &["--spec", "bad.toml"]), 1);
         assert!(said.contains(word), "{said}");
     }
-    let said = stderr(
-        &["network", "site.geojson", "--deadline", "0", "--out", "net"],
-        2,
-    );
+    let said = stderr(&network("site.geojson", &["--deadline", "0"]), 2);
     assert!(said.contains("deadline"), "{said}");
-    stderr(
-        &[
-            "network",
-            "site.geojson",
-            "--spec",
-            "none.toml",
-            "--out",
-            "net",
-        ],
-        1,
-    );
+    stderr(&network("site.geojson", &["--spec", "none.toml"]), 1);
     std::fs::write(bench.path("tie.geojson"), BOW_TIE).expect("written");
-    stderr(&["network", "tie.geojson", "--out", "net"], 1);
+    stderr(&network("tie.geojson", &[]), 1);
     assert!(!bench.path("net").exists());
 }

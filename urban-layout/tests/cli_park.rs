@@ -27,6 +27,30 @@ fn bench() -> Bench {
     bench
 }
 
+/// The words that make a park of a file, in the folder `plan`.
+fn park<'w>(polygon: &'w str, grammar: &'w str, more: &[&'w str]) -> Vec<&'w str> {
+    let words = ["park", polygon, "--grammar", grammar, "--out", "plan"];
+    [&words[..], more].concat()
+}
+
+fn number(of: &Value, key: &str) -> f64 {
+    of[key]
+        .as_f64()
+        .unwrap_or_else(|| panic!("{key} is no number: {of}"))
+}
+
+/// The whole numbers that features have by a name.
+fn numbers(features: &[Value], key: &str) -> BTreeSet<u64> {
+    let of = |f: &Value| f["properties"][key].as_u64().expect("an integer");
+    features.iter().map(of).collect()
+}
+
+/// The park that was written into a folder.
+fn written(bench: &Bench, folder: &str) -> String {
+    let file = bench.path(folder).join("park.geojson");
+    std::fs::read_to_string(file).expect("written")
+}
+
 fn features(text: &str) -> Vec<Value> {
     let all = json(text)["features"].clone();
     all.as_array().expect("features").clone()
@@ -77,28 +101,17 @@ fn tiled(tiles: &[&Value]) -> f64 {
 #[test]
 fn a_park_is_derived_and_drawn() {
     let bench = bench();
-    let words = [
-        "park",
-        "park.geojson",
-        "--grammar",
-        "my.park",
-        "--out",
-        "plan",
-    ];
+    let words = park("park.geojson", "my.park", &[]);
     let said = bench.expect(0, &words);
     assert!(
         said.contains("0.54 ha") && said.contains("things"),
         "{said}"
     );
     assert_eq!(names(&bench.path("plan")), ["park.geojson", "park.svg"]);
-    let text = std::fs::read_to_string(bench.path("plan/park.geojson")).expect("written");
+    let text = written(&bench, "plan");
     assert_eq!(json(&text)["coordinate_units"], "metres");
     let all = features(&text);
-    let ids: BTreeSet<u64> = all
-        .iter()
-        .map(|f| f["properties"]["id"].as_u64().expect("an integer"))
-        .collect();
-    assert_eq!(ids.len(), all.len());
+    assert_eq!(numbers(&all, "id").len(), all.len());
     let (regions, paths) = (of(&all, "region"), of(&all, "path"));
     assert!(regions.len() >= 8 && !paths.is_empty());
     let tiles = [regions, paths].concat();
@@ -107,7 +120,7 @@ fn a_park_is_derived_and_drawn() {
         let rings = rings(tile);
         let size: f64 = rings.iter().map(|r| signed(r)).sum();
         assert!(signed(&rings[0]) > 0.0 && rings[1..].iter().all(|r| signed(r) < 0.0));
-        let told = tile["properties"]["area_m2"].as_f64().expect("an area");
+        let told = number(&tile["properties"], "area_m2");
         assert!((told - size).abs() < 1e-3);
         assert!(tile["properties"]["material"].is_string());
     }
@@ -115,7 +128,7 @@ fn a_park_is_derived_and_drawn() {
     assert!(objects.len() > 20);
     for object in &objects {
         let p = &object["properties"];
-        let number = |key: &str| p[key].as_f64().expect("a number");
+        let number = |key: &str| number(p, key);
         assert!(number("radius_m") > 0.0 && number("spread_m") >= number("radius_m"));
         assert!((0.0..360.0).contains(&number("rotation_deg")));
         assert_eq!(object["geometry"]["type"], "Point");
@@ -149,8 +162,7 @@ fn parks_in_degrees_come_back_in_degrees() {
         let given = std::fs::read_to_string(&file).expect("readable");
         let outline = rings(&features(&given)[0]);
         let must: f64 = outline.iter().map(|r| signed(r)).sum::<f64>().abs();
-        let text = std::fs::read_to_string(bench.path(name).join("park.geojson"));
-        let text = text.expect("written");
+        let text = written(&bench, name);
         assert!(json(&text).get("coordinate_units").is_none());
         let all = features(&text);
         let tiles = [of(&all, "region"), of(&all, "path")].concat();
@@ -190,15 +202,7 @@ fn models_and_pictures_come_when_asked_for() {
     std::fs::write(bench.path("my.park"), grammar).expect("written");
     let stone = "v 1 0 0\nv -1 0 1\nv -1 0 -1\nv 0 1 0\nf 1 4 2\nf 2 4 3\nf 3 4 1\n";
     std::fs::write(bench.path("stone.obj"), stone).expect("written");
-    let words = [
-        "park",
-        "park.geojson",
-        "--grammar",
-        "my.park",
-        "--out",
-        "plan",
-        "--gltf",
-    ];
+    let words = park("park.geojson", "my.park", &["--gltf"]);
     bench.expect(0, &words);
     assert_eq!(
         names(&bench.path("plan")),
@@ -216,17 +220,9 @@ fn models_and_pictures_come_when_asked_for() {
 #[test]
 fn figures_are_one_json_object() {
     let bench = bench();
-    let words = [
-        "park",
-        "park.geojson",
-        "--grammar",
-        "my.park",
-        "--out",
-        "plan",
-        "--json",
-    ];
+    let words = park("park.geojson", "my.park", &["--json"]);
     let figures = json(&bench.expect(0, &words));
-    let number = |key: &str| figures[key].as_f64().expect("a number");
+    let number = |key: &str| self::number(&figures, key);
     assert!((number("area_m2") - 5400.0).abs() < 1e-6);
     // Paths of 3 m along 90 and 60 m, less their crossing, and what a circle of 5 m
     // with 36 corners has besides: 78.1 less 50 m2.
@@ -242,7 +238,7 @@ fn figures_are_one_json_object() {
     assert_eq!(figures["grammar"], "my");
     // A parameter of one's own makes the paths twice as wide.
     let figures = json(&bench.expect(0, &[&words[..], &["--param", "Wide=6"]].concat()));
-    assert!((figures["entrance_m"].as_f64().expect("a number") - 24.0).abs() < 1e-6);
+    assert!((self::number(&figures, "entrance_m") - 24.0).abs() < 1e-6);
 }
 
 #[test]
@@ -254,26 +250,14 @@ fn each_part_of_the_land_is_a_park() {
 {"type": "Feature", "properties": {"kind": "park"}, "geometry": {"type": "MultiPolygon", "coordinates":
 [[[[0, 0], [90, 0], [90, 60], [0, 60], [0, 0]]], [[[200, 0], [260, 0], [260, 40], [200, 40], [200, 0]]]]}}]}"#;
     std::fs::write(bench.path("two.geojson"), two).expect("written");
-    let words = [
-        "park",
-        "two.geojson",
-        "--grammar",
-        "my.park",
-        "--out",
-        "plan",
-        "--json",
-    ];
+    let words = park("two.geojson", "my.park", &["--json"]);
     let figures = json(&bench.expect(0, &words));
     assert_eq!(figures["parts"], 2);
-    assert!((figures["area_m2"].as_f64().expect("a number") - 7800.0).abs() < 1e-6);
+    assert!((number(&figures, "area_m2") - 7800.0).abs() < 1e-6);
     assert_eq!(figures["path_networks"], 2);
-    let text = std::fs::read_to_string(bench.path("plan/park.geojson")).expect("written");
+    let text = written(&bench, "plan");
     let all = features(&text);
-    let parts: BTreeSet<u64> = all
-        .iter()
-        .map(|f| f["properties"]["part"].as_u64().expect("a part"))
-        .collect();
-    assert_eq!(parts.len(), 2);
+    assert_eq!(numbers(&all, "part").len(), 2);
     assert!((tiled(&[of(&all, "region"), of(&all, "path")].concat()) - 7800.0).abs() < 1e-5);
 }
 
@@ -281,14 +265,7 @@ fn each_part_of_the_land_is_a_park() {
 #[test]
 fn what_is_wrong_is_said_and_nothing_is_written() {
     let bench = bench();
-    let words = [
-        "park",
-        "park.geojson",
-        "--grammar",
-        "my.park",
-        "--out",
-        "plan",
-    ];
+    let words = park("park.geojson", "my.park", &[]);
     bench.expect(0, &words);
     let before = files(&bench.path("plan"));
     std::fs::write(bench.path("bow.geojson"), BOW_TIE).expect("written");
@@ -306,38 +283,37 @@ fn what_is_wrong_is_said_and_nothing_is_written() {
     for (name, text) in grammars {
         std::fs::write(bench.path(name), text).expect("written");
     }
-    let run = |polygon: &str, grammar: &str, more: &[&str]| {
-        let words = ["park", polygon, "--grammar", grammar, "--out", "plan"];
-        [&words[..], more]
-            .concat()
-            .iter()
-            .map(|w| (*w).to_owned())
-            .collect::<Vec<_>>()
-    };
-    let table: [(i32, Vec<String>, &str); 8] = [
+    let table = [
         (
             1,
-            run("park.geojson", "typo.park", &[]),
+            park("park.geojson", "typo.park", &[]),
             "typo.park:2:11: there is nothing called Gird; did you mean Grid?",
         ),
-        (1, run("park.geojson", "nowhere.park", &[]), "simple_square"),
-        (1, run("bow.geojson", "my.park", &[]), "cross"),
-        (1, run("nowhere.geojson", "my.park", &[]), "nowhere.geojson"),
+        (
+            1,
+            park("park.geojson", "nowhere.park", &[]),
+            "simple_square",
+        ),
+        (1, park("bow.geojson", "my.park", &[]), "cross"),
+        (
+            1,
+            park("nowhere.geojson", "my.park", &[]),
+            "nowhere.geojson",
+        ),
         (
             2,
-            run("park.geojson", "my.park", &["--param", "Narrow=1"]),
+            park("park.geojson", "my.park", &["--param", "Narrow=1"]),
             "its parameters are: Wide",
         ),
         (
             2,
-            run("park.geojson", "my.park", &["--param", "Wide"]),
+            park("park.geojson", "my.park", &["--param", "Wide"]),
             "NAME=VALUE",
         ),
-        (3, run("park.geojson", "unfit.park", &[]), "unfit.park:2:"),
-        (3, run("park.geojson", "endless.park", &[]), "stopped"),
+        (3, park("park.geojson", "unfit.park", &[]), "unfit.park:2:"),
+        (3, park("park.geojson", "endless.park", &[]), "stopped"),
     ];
     for (status, words, must) in table {
-        let words: Vec<&str> = words.iter().map(String::as_str).collect();
         let said = bench.complaint(status, &words);
         assert!(said.contains(must), "{words:?}: {said}");
     }
@@ -358,14 +334,7 @@ fn broken_laws_are_warnings() {
     let bench = bench();
     let island = "grammar 1\nRegion -> Lawn Place(CENTRE) { Circle(5) Gravel }\n";
     std::fs::write(bench.path("island.park"), island).expect("written");
-    let words = [
-        "park",
-        "park.geojson",
-        "--grammar",
-        "island.park",
-        "--out",
-        "plan",
-    ];
+    let words = park("park.geojson", "island.park", &[]);
     let output = bench.run(&words);
     assert_eq!(output.status.code(), Some(0));
     let said = String::from_utf8_lossy(&output.stderr);

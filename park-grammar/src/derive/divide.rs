@@ -1,9 +1,14 @@
 //! Regions that are divided, and the rules of their parts.
 
+use std::collections::BTreeMap;
+
 use super::{Node, Places, Run, Value};
 use crate::error::Failure;
 use crate::rule::{holes, operator_named, Ask, Deed, Partition, Primitive};
 use crate::syntax::ast::{Body, Branch, Operation};
+
+/// Width of paths where nothing is said, metres.
+const PATH: f64 = 2.0;
 
 impl Run<'_> {
     /// Divides a region, and goes on with each of the parts.
@@ -36,10 +41,7 @@ impl Run<'_> {
         let path_width = if no_paths {
             0.0
         } else {
-            match self.params.get("PathWidth") {
-                Some(Value::Number(number)) => number.metres().unwrap_or(2.0),
-                _ => 2.0,
-            }
+            path_width(&self.params)
         };
         let mut partition = divide(&mut Ask {
             operation,
@@ -49,7 +51,7 @@ impl Run<'_> {
             centred: third.is_some_and(|branch| !branch.body.operations.is_empty()),
         })?;
         if holes::everywhere(&self.params) {
-            holes::split_all(&mut partition.outputs);
+            holes::split_all(&mut partition.outputs, &self.watch(node))?;
         }
         node.divided = true;
         for (k, output) in partition.outputs.into_iter().enumerate() {
@@ -94,6 +96,14 @@ impl Run<'_> {
             }
             _ => Ok(None),
         }
+    }
+}
+
+/// `PathWidth`, as the grammar sets it.
+pub(crate) fn path_width(params: &BTreeMap<String, Value>) -> f64 {
+    match params.get("PathWidth") {
+        Some(Value::Number(number)) => number.metres().unwrap_or(PATH),
+        _ => PATH,
     }
 }
 

@@ -23,7 +23,7 @@ mod value;
 mod walk;
 
 pub(crate) use content::Size;
-pub(crate) use divide::outputs;
+pub(crate) use divide::{outputs, path_width};
 pub(crate) use eval::{Places, Scope, ATTRIBUTES};
 #[cfg(test)]
 pub(crate) use limits::Limits;

@@ -106,11 +106,7 @@ impl Run<'_> {
 /// A shape, if all of it lies on ground that is free, as the region has it.
 /// `radius` is that of the circle around it.
 fn free_ground(node: &Node, shape: Area, at: Coord<f64>, radius: f64) -> Option<Area> {
-    let around = Spot {
-        at,
-        radius: radius * CLEAR,
-        facing: 0.0,
-    };
+    let around = Spot::new(at, radius * CLEAR);
     if Run::room(node, around, around.radius, around.radius) {
         // Where the circle has room, so has the shape.
         return Some(shape);

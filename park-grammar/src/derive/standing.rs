@@ -23,6 +23,17 @@ pub(crate) struct Disc {
     pub(crate) spread: f64,
 }
 
+impl Disc {
+    /// One that reaches no farther above the ground.
+    pub(crate) fn new(at: Coord<f64>, radius: f64) -> Self {
+        Self {
+            at,
+            radius,
+            spread: radius,
+        }
+    }
+}
+
 /// Footprints and volumes of a region.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Standing {

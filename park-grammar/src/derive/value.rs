@@ -27,6 +27,17 @@ pub(crate) struct Spot {
     pub(crate) facing: f64,
 }
 
+impl Spot {
+    /// One that faces east, as all do of which nothing is said.
+    pub(crate) fn new(at: Coord<f64>, radius: f64) -> Self {
+        Self {
+            at,
+            radius,
+            facing: 0.0,
+        }
+    }
+}
+
 /// One entry of a list of sizes: bounds of a length in metres, and of an angle in
 /// radians; both drawn by whoever uses them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -32,11 +32,7 @@ impl Run<'_> {
             }
             if shape {
                 let primitive = Primitive::read(operation, &mut self.scope(node, places))?;
-                let spot = Spot {
-                    at: middle(&node.region.area),
-                    radius: 0.0,
-                    facing: 0.0,
-                };
+                let spot = Spot::new(middle(&node.region.area), 0.0);
                 return self.carve(
                     node,
                     operation.span,
@@ -142,11 +138,7 @@ impl Run<'_> {
             node.material = material.name;
             return Ok(());
         }
-        let spot = Spot {
-            at: middle(&node.region.area),
-            radius: 0.0,
-            facing: 0.0,
-        };
+        let spot = Spot::new(middle(&node.region.area), 0.0);
         let before = self.tally();
         self.thing(node, operation, places, spot)?;
         self.suited(operation, before)

@@ -114,6 +114,15 @@ pub(super) fn closed(data: &mut String, points: impl Iterator<Item = [i64; 2]>) 
     data.push('z');
 }
 
+/// Appends a round dot.
+pub(super) fn dot(data: &mut String, [x, y]: [i64; 2], r: i64) {
+    let (start, wide) = (x - r, 2 * r);
+    let _ = write!(
+        data,
+        "M{start} {y}a{r} {r} 0 1 0 {wide} 0a{r} {r} 0 1 0-{wide} 0z"
+    );
+}
+
 /// Text for XML.
 pub(super) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use geo_types::Coord;
 
 use super::colour::{darker, lighter};
-use super::pen::{closed, escaped, Pen, UNITS};
+use super::pen::{closed, dot, escaped, Pen, UNITS};
 use crate::library;
 use crate::plane::Area;
 use crate::scene::{Kind, Object, Scene, Volume};
@@ -204,13 +204,7 @@ pub(super) fn leaves(pen: &mut Pen, name: &str) -> Option<String> {
         let dots = |fill: String, places: [[i64; 2]; 4], r: i64| {
             let mut data = String::new();
             for [x, y] in places {
-                let _ = write!(
-                    data,
-                    "M{} {y}a{r} {r} 0 1 0 {} 0a{r} {r} 0 1 0-{} 0z",
-                    x - r,
-                    2 * r,
-                    2 * r
-                );
+                dot(&mut data, [x, y], r);
             }
             format!("<path d=\"{data}\" fill=\"{fill}\"/>")
         };

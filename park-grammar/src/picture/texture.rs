@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::colour::{darker, lighter};
+use super::pen::dot;
 
 /// A pattern: the side of its square tile in centimetres, and what is drawn in
 /// that.
@@ -125,13 +126,7 @@ fn dots(elements: &mut String, size: i64, count: u32, radii: [i64; 2], colours: 
             };
             for x in around(x) {
                 for y in around(y) {
-                    let _ = write!(
-                        data,
-                        "M{} {y}a{r} {r} 0 1 0 {} 0a{r} {r} 0 1 0-{} 0z",
-                        x - r,
-                        2 * r,
-                        2 * r
-                    );
+                    dot(&mut data, [x, y], r);
                 }
             }
         }

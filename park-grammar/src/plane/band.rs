@@ -9,7 +9,10 @@
 //!
 //! An edge moves on until it meets the boundary: land behind a bay, which is in the
 //! way, is not reached. Where cells could go on beyond the boundary they are cut to
-//! what their edge sees along its way.
+//! what their edge sees along its way. In that, and in its mitres, a band differs from
+//! what [`erode`](fn@super::erode) takes away, which is all land within a width: peeled
+//! strips have the same depth and sharp corners everywhere, and leave what they pass
+//! by alone.
 //!
 //! The band is had as areas that overlap and go on beyond the land where it ends.
 //! Their vertices on the boundary are vertices of the boundary to the last digit:
@@ -19,15 +22,11 @@ use std::slice::from_ref;
 
 use geo_types::Coord;
 
-use super::inset::{wedge, STRAIGHT};
+use super::inset::{wedge, REACH, STRAIGHT};
 use super::{
     cross, difference, dist, dot, intersection, lerp, right, sides, trim, union, unit, Area,
     Corner, Ring, Segment,
 };
-
-/// A run that follows its neighbours reaches no farther beyond its end than this
-/// many depths: as mitres do.
-const REACH: f64 = 4.0;
 
 /// What is told from zero, as a share.
 const TINY: f64 = 1e-9;
@@ -53,7 +52,7 @@ pub(crate) struct Bound {
 pub(crate) enum Ends {
     /// Its corners slide along the edges next to it, unless those lead away from
     /// the land (a corner of half a turn or more), or would lead them farther
-    /// along than four depths: then as below.
+    /// along than mitres reach, four depths: then as below.
     Follow,
     /// At right angles to the moved edge.
     Square,
@@ -98,7 +97,16 @@ struct End {
 impl Band {
     /// The band so deep along the moving edges of a boundary: its rings, the land
     /// on the right.
-    pub(crate) fn new(rings: &[Vec<Bound>], depth: f64, ends: Ends) -> Self {
+    ///
+    /// # Errors
+    ///
+    /// What `look` gives, which is called for each edge and between booleans.
+    pub(crate) fn new<E>(
+        rings: &[Vec<Bound>],
+        depth: f64,
+        ends: Ends,
+        look: impl Fn() -> Result<(), E>,
+    ) -> Result<Self, E> {
         let shaping = Shaping { rings, depth, ends };
         let movers = shaping.movers();
         let shapes: Vec<[End; 2]> = movers
@@ -114,6 +122,7 @@ impl Band {
         };
         let joints = shaping.joints(&movers);
         for ((mover, [start, end]), joint) in movers.iter().zip(&shapes).zip(joints) {
+            look()?;
             let mut ring = vec![mover.a, mover.b];
             ring.extend(&end.chain);
             ring.extend([end.tip, start.tip]);
@@ -140,8 +149,8 @@ impl Band {
                 band.wedge(joint, depth, &edges);
             }
         }
-        band.cover = merged(band.cover);
-        band
+        band.cover = merged(band.cover, look)?;
+        Ok(band)
     }
 
     /// Adds the cell of a mover, as far as the mover sees it.
@@ -219,10 +228,10 @@ impl Band {
 
 /// Areas made one where they are many: neighbours first, so that no step meets
 /// many that overlap. Along a fine curve all cells of a deep band do.
-fn merged(areas: Vec<Area>) -> Vec<Area> {
+fn merged<E>(areas: Vec<Area>, look: impl Fn() -> Result<(), E>) -> Result<Vec<Area>, E> {
     let n = areas.len();
     if n <= FEW {
-        return areas;
+        return Ok(areas);
     }
     // Each group has the first of the next one too: what only touches may come out
     // with a slit between.
@@ -232,15 +241,25 @@ fn merged(areas: Vec<Area>) -> Vec<Area> {
         let group: Vec<Area> = areas[start..end].iter().chain(next).cloned().collect();
         union(&group)
     };
-    let mut merged: Vec<Area> = (0..n).step_by(FEW).flat_map(group).collect();
+    let mut merged: Vec<Area> = Vec::new();
+    for start in (0..n).step_by(FEW) {
+        look()?;
+        merged.extend(group(start));
+    }
     while merged.len() > FEW {
-        let before = merged.len();
-        merged = merged.chunks(FEW).flat_map(union).collect();
-        if merged.len() == before {
+        let mut fewer = Vec::new();
+        for chunk in merged.chunks(FEW) {
+            look()?;
+            fewer.extend(union(chunk));
+        }
+        let stuck = fewer.len() == merged.len();
+        merged = fewer;
+        if stuck {
             break;
         }
     }
-    union(&merged)
+    look()?;
+    Ok(union(&merged))
 }
 
 /// A corner of more than half a turn between two movers.
@@ -426,18 +445,26 @@ impl Shaping<'_> {
 }
 
 /// What cuts the land between a boundary and its whole self, drawn in so far.
-pub(crate) fn inset(area: &Area, depth: f64) -> Vec<Area> {
+///
+/// # Errors
+///
+/// What `look` gives, which is called as by [`Band::new`].
+pub(crate) fn inset<E>(
+    area: &Area,
+    depth: f64,
+    look: impl Fn() -> Result<(), E>,
+) -> Result<Vec<Area>, E> {
     let all = |ring: &Ring| -> Vec<Bound> {
         let bound = |(at, _)| Bound { at, moves: true };
         sides(ring).map(bound).collect()
     };
     let rings: Vec<Vec<Bound>> = area.rings().map(all).collect();
-    let band = Band::new(&rings, depth, Ends::Follow);
+    let band = Band::new(&rings, depth, Ends::Follow, look)?;
     let (low, high) = area.extent();
-    trim(
+    Ok(trim(
         difference(from_ref(&band.land), &band.cover),
         dist(low, high),
-    )
+    ))
 }
 
 #[cfg(test)]
@@ -453,9 +480,14 @@ mod tests {
         points.iter().enumerate().map(bound).collect()
     }
 
+    /// However long it takes.
+    fn band(ring: Vec<Bound>, depth: f64, ends: Ends) -> Band {
+        Band::new(&[ring], depth, ends, || Ok::<(), ()>(())).expect("nothing stops it")
+    }
+
     /// Sizes of the band and of the rest.
     fn sizes(ring: Vec<Bound>, depth: f64, ends: Ends) -> (f64, f64) {
-        let band = Band::new(&[ring], depth, ends);
+        let band = band(ring, depth, ends);
         let sum = |areas: Vec<Area>| areas.iter().map(Area::size).sum::<f64>();
         (
             sum(intersection(from_ref(&band.land), &band.cover)),
@@ -561,7 +593,7 @@ mod tests {
                 .map(|&(x, y)| (x * cos - y * sin, x * sin + y * cos))
                 .collect();
             for moves in [&[1][..], &[0, 1], &[0, 1, 2]] {
-                let band = Band::new(&[ring(&turned, moves)], 3.0, Ends::Follow);
+                let band = band(ring(&turned, moves), 3.0, Ends::Follow);
                 let rest = difference(from_ref(&band.land), &band.cover);
                 assert_eq!(rest.len(), 1);
                 assert_eq!(rest[0].outer.len(), 4, "{moves:?}: {:?}", rest[0].outer);

@@ -1,12 +1,15 @@
 //! Areas drawn in from some of their edges, each by a width of its own.
+//!
+//! What goes is what lies within a width of its edge, whatever lies between, so that
+//! places narrower than that fall away and corners that turn inwards become round:
+//! the room beside paths. A [`Band`](super::Band) is what edges of one depth sweep
+//! over on their way, mitred, and no farther than the boundary that stops them: no
+//! band gives the round corners and the many widths that cells need.
 
 use geo_types::Coord;
 
+use super::inset::REACH;
 use super::{cross, difference, dist, dot, strip, unit, Area, Corner};
-
-/// A strip that ends on an edge which keeps its place is longer by so many
-/// widths at most, to be cut off along that edge.
-const LONGEST: f64 = 4.0;
 
 /// Widths that differ by less, as a share, are one.
 const SAME: f64 = 1e-9;
@@ -69,15 +72,15 @@ fn along(ring: &[Coord<f64>], widths: &[f64]) -> Vec<Area> {
 }
 
 /// How far a strip must go on beyond its end to be cut off along the edge from
-/// there to `beside`.
+/// there to `beside`, which keeps its place: as far as a mitre at most.
 fn overshoot(beside: Coord<f64>, end: Coord<f64>, from: Coord<f64>, width: f64) -> f64 {
     let (edge, back) = (unit(beside - end), unit(from - end));
     let (sin, cos) = (cross(edge, back).abs(), dot(edge, back));
     // Up to a right angle the strip's own end reaches the edge.
     if cos >= 0.0 {
         0.0
-    } else if -cos >= LONGEST * sin {
-        LONGEST * width
+    } else if -cos >= REACH * sin {
+        REACH * width
     } else {
         -cos / sin * width
     }

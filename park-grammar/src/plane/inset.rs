@@ -20,7 +20,7 @@ pub(super) const STRAIGHT: f64 = 1e-9;
 const WHOLE: f64 = 1e-6;
 
 /// A mitre reaches this many widths at most; beyond, the corner is round.
-const REACH: f64 = 4.0;
+pub(super) const REACH: f64 = 4.0;
 
 /// Distances this near are the same, as a share of them.
 const SAME: f64 = 1e-7;

@@ -161,16 +161,8 @@ impl Plan {
             missed += 1;
             if let Some((at, radius)) = found {
                 missed = 0;
-                standing.add(Disc {
-                    at,
-                    radius,
-                    spread: radius,
-                });
-                spots.push(Spot {
-                    at,
-                    radius,
-                    facing: 0.0,
-                });
+                standing.add(Disc::new(at, radius));
+                spots.push(Spot::new(at, radius));
             }
         }
         Ok(spots)
@@ -202,16 +194,8 @@ impl Plan {
             if !self.fits(&standing, free, at, radius) {
                 return None;
             }
-            standing.add(Disc {
-                at,
-                radius,
-                spread: radius,
-            });
-            spots.push(Spot {
-                at,
-                radius,
-                facing: 0.0,
-            });
+            standing.add(Disc::new(at, radius));
+            spots.push(Spot::new(at, radius));
             Some(radius)
         })?;
         Ok(spots)
@@ -250,11 +234,7 @@ pub(crate) fn act(
     let plan = Plan::read(&mut run.scope(node, places), operation)?;
     let mut chance = node.chance.child();
     let free = |at, radius| {
-        let spot = Spot {
-            at,
-            radius,
-            facing: 0.0,
-        };
+        let spot = Spot::new(at, radius);
         Run::room(node, spot, radius, radius)
     };
     let spots = plan.scatter(&watch, &node.region, &mut chance, &free)?;

@@ -72,10 +72,12 @@ pub(crate) fn contract(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     arguments.done()?;
     let size = scope.number(amount)?;
     let region = scope.region;
+    let watch = scope.watch();
     let inner = match by {
         By::Inset => {
             let all = whole(region, &Selection::all(region));
-            inset(&region.area, depth(size, all, amount.span)?)
+            let deep = depth(size, all, amount.span)?;
+            inset(&region.area, deep, || watch.look())?
         }
         By::Scale => {
             let at = towards.map_or_else(|| middle(&region.area), |spot| spot.at);
@@ -91,8 +93,10 @@ pub(crate) fn contract(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
         }
     };
     let parts = Parts::new(region, "Contract");
+    watch.look()?;
     let around = difference(std::slice::from_ref(&region.area), &inner);
-    let inner = parts.regions(inner, Role::Inner);
+    watch.look()?;
+    let inner = parts.regions(inner, Role::Inner, &watch)?;
     if inner.is_empty() {
         return Err(Failure::unfit(
             span,
@@ -101,10 +105,10 @@ pub(crate) fn contract(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     }
     let mut outputs = vec![
         Output::lawns(inner),
-        Output::lawns(parts.regions(around, Role::Inner)),
+        Output::lawns(parts.regions(around, Role::Inner, &watch)?),
     ];
     if split {
-        holes::split_all(&mut outputs);
+        holes::split_all(&mut outputs, &watch)?;
     }
     Ok(Partition { outputs })
 }

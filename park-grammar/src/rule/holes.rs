@@ -15,7 +15,7 @@ use geo_types::Coord;
 
 use super::peel::within;
 use super::{Arguments, Ask, Output, Partition};
-use crate::derive::{Number, Scope, Value};
+use crate::derive::{Number, Scope, Value, Watch};
 use crate::error::Failure;
 use crate::plane::{
     cross, dist, dot, lerp, sides, slice, split, trim, unit, Area, Line, Ring, Segment,
@@ -52,16 +52,19 @@ pub(crate) fn wanted(
 pub(crate) fn split_holes(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     Arguments::new(ask.operation).done()?;
     let mut outputs = vec![Output::lawns(vec![ask.scope.region.clone()])];
-    split_all(&mut outputs);
+    split_all(&mut outputs, &ask.scope.watch())?;
     Ok(Partition { outputs })
 }
 
-/// Splits what has holes in all outputs.
-pub(crate) fn split_all(outputs: &mut [Output]) {
+/// Splits what has holes in all outputs; an error when the time is up.
+pub(crate) fn split_all(outputs: &mut [Output], watch: &Watch<'_>) -> Result<(), Failure> {
     for output in outputs {
-        let regions = std::mem::take(&mut output.regions);
-        output.regions = regions.into_iter().flat_map(split_region).collect();
+        for region in std::mem::take(&mut output.regions) {
+            watch.tick()?;
+            output.regions.extend(split_region(region));
+        }
     }
+    Ok(())
 }
 
 fn split_region(region: Region) -> Vec<Region> {

@@ -25,6 +25,8 @@ pub(crate) mod smoothing;
 mod split_along;
 mod sweep;
 mod target;
+#[cfg(test)]
+mod trial;
 mod voronoi;
 
 use crate::derive::{Node, Places, Run, Scope};
@@ -239,6 +241,14 @@ pub(crate) fn in_other_case(word: &str) -> Option<&'static str> {
     all.filter(same).max_by_key(|known| {
         // A place or selector is asked for more often than a mode.
         known.chars().filter(|c| c.is_uppercase()).count()
+    })
+}
+
+/// What was divided, unless nothing but paths would be left.
+fn with_room(found: Option<Partition>, operation: &Operation) -> Result<Partition, Failure> {
+    found.ok_or_else(|| {
+        let error = "the paths leave no room for regions";
+        Failure::unfit(operation.span, error)
     })
 }
 

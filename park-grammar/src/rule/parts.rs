@@ -6,7 +6,7 @@ use geo_types::Coord;
 use super::peel::within;
 use super::points;
 use super::Arguments;
-use crate::derive::{Number, Scope, Spot, Value};
+use crate::derive::{Scope, Spot, Value, Watch};
 use crate::error::Failure;
 use crate::plane::{dist, trim, Area};
 use crate::shape::{Heritage, Region, Role};
@@ -14,9 +14,6 @@ use crate::syntax::ast::{Argument, Span};
 
 /// What is smaller than this share of the region is rounding.
 const SLIVER: f64 = 1e-12;
-
-/// Width of paths where nothing is said, metres.
-const PATH: f64 = 2.0;
 
 /// Makes regions of the parts of one.
 pub(crate) struct Parts<'r> {
@@ -33,19 +30,25 @@ impl<'r> Parts<'r> {
     }
 
     /// Areas as regions: edges within the region have a role, sides are numbered by
-    /// coordinates along the region's axes.
-    pub(crate) fn regions(&self, areas: Vec<Area>, role: Role) -> Vec<Region> {
+    /// coordinates along the region's axes. An error when the time is up.
+    pub(crate) fn regions(
+        &self,
+        areas: Vec<Area>,
+        role: Role,
+        watch: &Watch<'_>,
+    ) -> Result<Vec<Region>, Failure> {
         let (low, high) = self.region.area.extent();
         let least = SLIVER * self.region.area.size();
         trim(areas, dist(low, high))
             .into_iter()
             .filter(|area| area.size() > least)
             .map(|area| {
+                watch.tick()?;
                 let local = within(self.region, &area);
                 let mut piece = self.heritage.piece(area, local, |_, _| Some(role));
                 piece.cell = self.region.cell;
                 crate::index::by_local(&mut piece);
-                piece
+                Ok(piece)
             })
             .collect()
     }
@@ -86,14 +89,6 @@ pub(crate) fn only(spots: &[Spot], span: Span) -> Result<Spot, Failure> {
         [only] => Ok(*only),
         [] => Err(Failure::unfit(span, "this region has no such place")),
         _ => Err(Failure::fault(span, "a centre is one place")),
-    }
-}
-
-/// `PathWidth`, as the grammar sets it.
-pub(crate) fn path_width(scope: &Scope<'_>) -> f64 {
-    match scope.params.get("PathWidth") {
-        Some(Value::Number(number)) => Number::metres(*number).unwrap_or(PATH),
-        _ => PATH,
     }
 }
 

@@ -50,7 +50,7 @@ use geo_types::Coord;
 
 use super::smoothing::Smoother;
 use super::{holes, Arguments, Ask, Output, Partition};
-use crate::derive::{outputs, Number};
+use crate::derive::{outputs, Number, Watch};
 use crate::error::Failure;
 use crate::plane::{
     box_along, difference, dist, farthest, intersection, lerp, named_by, nearest_on, right, trim,
@@ -112,6 +112,7 @@ pub(crate) fn peel(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
             "there is nothing to peel: the selection is empty",
         ));
     }
+    let watch = ask.scope.watch();
     let whole = whole(region, &selection);
     let mut depths = Vec::with_capacity(sizes.len());
     for (size, at) in sizes {
@@ -132,12 +133,12 @@ pub(crate) fn peel(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
         }
         let mut strip = Vec::new();
         if k == 0 {
-            [strip, rests] = once(region, &selection, depth, way);
+            [strip, rests] = once(region, &selection, depth, way, &watch)?;
         } else {
             let mut left = Vec::new();
             for rest in &rests {
                 let inner = named::named(rest, "PEELED_INNER").unwrap_or_default();
-                let [more, rest] = once(rest, &inner, depth, way);
+                let [more, rest] = once(rest, &inner, depth, way, &watch)?;
                 strip.extend(more);
                 left.extend(rest);
             }
@@ -153,7 +154,7 @@ pub(crate) fn peel(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let mut outputs: Vec<Output> = strips.into_iter().map(Output::lawns).collect();
     outputs.push(Output::lawns(rests));
     if split {
-        holes::split_all(&mut outputs);
+        holes::split_all(&mut outputs, &watch)?;
     }
     Ok(Partition { outputs })
 }
@@ -251,7 +252,14 @@ struct Cut<'r> {
 }
 
 /// Peels one strip: the strip, and what is left.
-fn once(region: &Region, selection: &Selection, depth: f64, way: Way) -> [Vec<Region>; 2] {
+fn once(
+    region: &Region,
+    selection: &Selection,
+    depth: f64,
+    way: Way,
+    watch: &Watch<'_>,
+) -> Result<[Vec<Region>; 2], Failure> {
+    watch.look()?;
     let steps = selection.steps(region);
     let bounds = |rings: &[Vec<Step>]| -> Vec<Vec<Bound>> {
         let bound = |step: &Step| Bound {
@@ -264,18 +272,22 @@ fn once(region: &Region, selection: &Selection, depth: f64, way: Way) -> [Vec<Re
             .collect()
     };
     let bounds = bounds(&steps);
-    let band = Band::new(&bounds, depth, way.ends);
+    let band = Band::new(&bounds, depth, way.ends, || watch.look())?;
+    watch.look()?;
     let land = std::slice::from_ref(&band.land);
     let mut rest = difference(land, &band.cover);
     if let Some(smoother) = way.smoother {
         rest = trim(rest, size(region));
+        watch.look()?;
         rest = smoothed(region, &band, rest, &smoother.within(2.0 * depth));
-        let least = Band::new(&bounds, LEAST * depth, way.ends);
+        let least = Band::new(&bounds, LEAST * depth, way.ends, || watch.look())?;
+        watch.look()?;
         rest = difference(&rest, &least.cover);
     }
     let least = SLIVER * region.area.size();
     rest = trim(rest, size(region));
     rest.retain(|area| area.size() > least);
+    watch.look()?;
     // Not by the band, whose cells meet in edges that would be slits up to rounding.
     let mut strip = difference(land, &rest);
     strip = trim(strip, size(region));
@@ -297,15 +309,14 @@ fn once(region: &Region, selection: &Selection, depth: f64, way: Way) -> [Vec<Re
         on: ON * size(region),
     };
     let heritage = Heritage::new(region, "Peel");
-    [
-        strip
-            .into_iter()
-            .map(|area| cut.strip(&heritage, area))
-            .collect(),
-        rest.into_iter()
-            .map(|area| cut.rest(&heritage, area))
-            .collect(),
-    ]
+    let made = |areas: Vec<Area>, made: &dyn Fn(Area) -> Region| -> Result<Vec<Region>, Failure> {
+        let each = |area| watch.look().map(|()| made(area));
+        areas.into_iter().map(each).collect()
+    };
+    Ok([
+        made(strip, &|area| cut.strip(&heritage, area))?,
+        made(rest, &|area| cut.rest(&heritage, area))?,
+    ])
 }
 
 /// What is left, with its border smoothed where it is not the region's own.

@@ -92,11 +92,7 @@ pub(crate) fn act(
 
 /// The places that a value stands for.
 pub(crate) fn spots(region: &Region, value: Value, span: Span) -> Result<Vec<Spot>, Failure> {
-    let spot = |at| Spot {
-        at,
-        radius: 0.0,
-        facing: 0.0,
-    };
+    let spot = |at| Spot::new(at, 0.0);
     Ok(match value {
         Value::Word(word) if word == "CENTRE" => vec![spot(middle(&region.area))],
         // Where there is the most room, which `room` tells.

@@ -30,8 +30,8 @@ use geo_types::Coord;
 
 use super::parts::{centre, room, Parts};
 use super::peel::depth;
-use super::{holes, Arguments, Ask, Output, Partition};
-use crate::derive::{Number, Scope, Sizing, Value};
+use super::{holes, path_width, Arguments, Ask, Output, Partition};
+use crate::derive::{Number, Scope, Sizing, Value, Watch};
 use crate::error::Failure;
 use crate::plane::{circle, difference, intersection, middle, Area};
 use crate::shape::{Cell, Region, Role};
@@ -46,15 +46,7 @@ pub(crate) fn rings(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let mut arguments = Arguments::new(ask.operation);
     let split = holes::wanted(&mut arguments, scope)?;
     let spot = centre(scope, &mut arguments)?;
-    let mut width = ask.path_width;
-    if let Some(expr) = arguments.named("width") {
-        let given = scope.metres(expr)?;
-        if given < 0.0 {
-            return Err(Failure::fault(expr.span, "a width is 0 or more"));
-        }
-        // Empty braces say that there are none, however wide.
-        width = if width > 0.0 { given } else { 0.0 };
-    }
+    let width = path_width(&mut arguments, scope, ask.path_width)?;
     let at = spot.map_or_else(|| middle(&scope.region.area), |spot| spot.at);
     let mut laying = Laying {
         at,
@@ -73,9 +65,10 @@ pub(crate) fn rings(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
             .push(given.unwrap_or(laying.room - laying.half));
     }
     laying.check(span)?;
-    let mut outputs = laying.cut(scope.region, span)?;
+    let watch = scope.watch();
+    let mut outputs = laying.cut(scope.region, span, &watch)?;
     if split {
-        holes::split_all(&mut outputs);
+        holes::split_all(&mut outputs, &watch)?;
     }
     Ok(Partition { outputs })
 }
@@ -174,7 +167,7 @@ impl Laying {
         Ok(())
     }
 
-    fn cut(&self, region: &Region, span: Span) -> Result<Vec<Output>, Failure> {
+    fn cut(&self, region: &Region, span: Span, watch: &Watch<'_>) -> Result<Vec<Output>, Failure> {
         let parts = Parts::new(region, "Rings");
         let disc = |radius: f64| Area::new(circle(self.at, radius), Vec::new());
         let land = std::slice::from_ref(&region.area);
@@ -188,15 +181,17 @@ impl Laying {
         let mut left = land.to_vec();
         let count = self.radii.len();
         for (k, radius) in self.radii.iter().enumerate() {
+            watch.look()?;
             let inside = disc(radius - self.half);
             let ring = intersection(&left, std::slice::from_ref(&inside));
-            for mut part in parts.regions(ring, role) {
+            for mut part in parts.regions(ring, role, watch)? {
                 part.cell = Some(Cell {
                     at: [k, 0],
                     of: [count, 1],
                 });
                 rings.push(part);
             }
+            watch.look()?;
             left = difference(&left, &[inside]);
             if self.half > 0.0 {
                 let around = disc(radius + self.half);
@@ -212,8 +207,8 @@ impl Laying {
         }
         Ok(vec![
             Output::lawns(rings),
-            Output::paths(parts.regions(paths, Role::Path)),
-            Output::lawns(parts.regions(left, role)),
+            Output::paths(parts.regions(paths, Role::Path, watch)?),
+            Output::lawns(parts.regions(left, role, watch)?),
         ])
     }
 }

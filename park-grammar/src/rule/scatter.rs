@@ -58,14 +58,7 @@ pub(crate) fn scatter(
     let mut own = Standing::default();
     let reach = |size: Size| room.unwrap_or(size.spread).max(0.0);
     let free = |node: &Node, own: &Standing, size: Size, at: Coord<f64>| {
-        let (spot, reach) = (
-            Spot {
-                at,
-                radius: size.radius,
-                facing: 0.0,
-            },
-            reach(size),
-        );
+        let (spot, reach) = (Spot::new(at, size.radius), reach(size));
         own.apart(at, reach, reach)
             && Run::room(node, spot, size.radius, reach)
             && (margin <= 0.0 || inside(&node.region.area, at, size.radius + margin))
@@ -82,11 +75,7 @@ pub(crate) fn scatter(
                 let size = kinds.all[k].2;
                 free(node, &own, size, at).then(|| {
                     let radius = reach(size);
-                    own.add(Disc {
-                        at,
-                        radius,
-                        spread: radius,
-                    });
+                    own.add(Disc::new(at, radius));
                     chosen.push((at, k));
                     // Without room of its own a thing has that of its footprint.
                     radius.max(size.radius).max(0.1)
@@ -116,11 +105,7 @@ pub(crate) fn scatter(
         };
         missed = 0;
         let radius = reach(size);
-        own.add(Disc {
-            at,
-            radius,
-            spread: radius,
-        });
+        own.add(Disc::new(at, radius));
         put(run, node, places, &kinds, &[(at, k)], &mut chance)?;
     }
     run.suited(operation, before)

@@ -44,12 +44,13 @@ pub(crate) fn smooth(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     }
     arguments.done()?;
     let region = scope.region;
+    let watch = scope.watch();
     let land = std::slice::from_ref(&region.area);
     let areas = match smoother {
         None => land.to_vec(),
         Some(smoother) if margin > 0.0 => {
             let free = |ring: &Ring| smoother.ring(ring, &vec![false; ring.len()]);
-            let inner = inset(&region.area, margin);
+            let inner = inset(&region.area, margin, || watch.look())?;
             let smoothed = inner
                 .iter()
                 .map(|area| Area::new(free(&area.outer), area.holes.iter().map(free).collect()));
@@ -68,19 +69,22 @@ pub(crate) fn smooth(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
         .collect();
     let land = with_vertices(&region.area, &vertices);
     let land = std::slice::from_ref(&land);
+    watch.look()?;
     let inner = intersection(&areas, land);
+    watch.look()?;
     let rest = difference(land, &areas);
+    watch.look()?;
     let parts = Parts::new(region, "Smooth");
-    let inner = parts.regions(inner, Role::Seam);
+    let inner = parts.regions(inner, Role::Seam, &watch)?;
     if inner.is_empty() {
         return Err(Failure::unfit(span, "nothing is left of this region"));
     }
     let mut outputs = vec![
         Output::lawns(inner),
-        Output::lawns(parts.regions(rest, Role::Seam)),
+        Output::lawns(parts.regions(rest, Role::Seam, &watch)?),
     ];
     if split {
-        holes::split_all(&mut outputs);
+        holes::split_all(&mut outputs, &watch)?;
     }
     Ok(Partition { outputs })
 }

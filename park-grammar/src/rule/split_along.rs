@@ -30,10 +30,10 @@
 
 use geo_types::Coord;
 
-use super::parts::{path_width, places, Parts};
+use super::parts::{places, Parts};
 use super::peel::metres;
 use super::{holes, Arguments, Ask, Output, Partition};
-use crate::derive::{outputs, Scope};
+use crate::derive::{outputs, path_width, Scope, Watch};
 use crate::error::Failure;
 use crate::plane::{
     cross, curve, difference, dist, intersection, lerp, nearest_on, ribbon, right, sides, slice,
@@ -82,19 +82,25 @@ pub(crate) fn split_along(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
         ));
     }
     let course = course(&mut arguments, scope, dist(first, last))?;
-    let default = if wants_path { path_width(scope) } else { 0.0 };
+    let default = if wants_path {
+        path_width(scope.params)
+    } else {
+        0.0
+    };
     let width = arguments.metres(scope, "width")?.unwrap_or(default);
     if width < 0.0 {
         return Err(Failure::fault(span, "a width is 0 or more"));
     }
     arguments.done()?;
     let region = scope.region;
+    let watch = scope.watch();
     let line = extended(region, curve(&line, course), width);
-    let (areas, paths) = cut(region, &line, width);
+    let (areas, paths) = cut(region, &line, width, &watch)?;
     let role = if width > 0.0 { Role::Path } else { Role::Seam };
     let parts = Parts::new(region, "SplitAlong");
     let (mut left, mut right) = (Vec::new(), Vec::new());
-    for part in parts.regions(areas, role) {
+    for part in parts.regions(areas, role, &watch)? {
+        watch.look()?;
         let on_left = leans_left(&part, &line.middle) != region.local.mirrored();
         if on_left { &mut left } else { &mut right }.push(part);
     }
@@ -105,10 +111,10 @@ pub(crate) fn split_along(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let mut outputs = vec![
         Output::lawns(left),
         Output::lawns(right),
-        Output::paths(parts.regions(paths, Role::Path)),
+        Output::paths(parts.regions(paths, Role::Path, &watch)?),
     ];
     if split {
-        holes::split_all(&mut outputs);
+        holes::split_all(&mut outputs, &watch)?;
     }
     Ok(Partition { outputs })
 }
@@ -240,13 +246,17 @@ fn way_out(area: &Area, from: Coord<f64>, along: Coord<f64>) -> Option<f64> {
 }
 
 /// The parts beside a line, and the path on it.
-fn cut(region: &Region, line: &Through, width: f64) -> (Vec<Area>, Vec<Area>) {
+fn cut(
+    region: &Region,
+    line: &Through,
+    width: f64,
+    watch: &Watch<'_>,
+) -> Result<(Vec<Area>, Vec<Area>), Failure> {
+    watch.look()?;
     let land = std::slice::from_ref(&region.area);
     if width <= 0.0 {
-        return (
-            slice(&region.area, std::slice::from_ref(&line.middle)),
-            Vec::new(),
-        );
+        let parts = slice(&region.area, std::slice::from_ref(&line.middle));
+        return Ok((parts, Vec::new()));
     }
     let band = ribbon(&line.long, width);
     let near = BEYOND * width;
@@ -265,8 +275,11 @@ fn cut(region: &Region, line: &Through, width: f64) -> (Vec<Area>, Vec<Area>) {
             })
     };
     // Beyond its end a path may have met land that the line does not reach.
-    let (paths, beyond): (Vec<Area>, Vec<Area>) =
-        intersection(land, &band).into_iter().partition(met);
+    let (mut paths, mut beyond) = (Vec::new(), Vec::new());
+    for path in intersection(land, &band) {
+        watch.look()?;
+        if met(&path) { &mut paths } else { &mut beyond }.push(path);
+    }
     // By the path as it goes on beyond the land: of its part inside, rounding would
     // leave hairs along the boundary, which join what it divides.
     let cover = if beyond.is_empty() {
@@ -274,7 +287,8 @@ fn cut(region: &Region, line: &Through, width: f64) -> (Vec<Area>, Vec<Area>) {
     } else {
         difference(&band, &beyond)
     };
-    (difference(land, &cover), paths)
+    watch.look()?;
+    Ok((difference(land, &cover), paths))
 }
 
 /// Whether a part lies to the left of a line, by its edges that border on it.

@@ -76,7 +76,9 @@ pub(crate) fn sweep(
         }
     };
     let before = run.tally();
+    let watch = run.watch(node);
     for (line, profile) in lines.into_iter().zip(profiles.iter().cycle()) {
+        watch.look()?;
         let width = width.unwrap_or(profile.width);
         let band = match line {
             None => vec![node.region.area.clone()],
@@ -88,6 +90,7 @@ pub(crate) fn sweep(
             }
         };
         let inside = intersection(&band, std::slice::from_ref(&node.region.area));
+        watch.look()?;
         let mut found = difference(&inside, &met(node, &inside));
         found.retain(|area| area.size() > LEAST);
         if found.is_empty() {

@@ -1,4 +1,4 @@
-//! What tests of partitions have in common: outlines, and whether pieces tile.
+//! What tests have in common: outlines, parks, and whether pieces tile.
 
 #![allow(unreachable_pub, dead_code, reason = "each test takes what it needs")]
 
@@ -100,9 +100,19 @@ pub fn of<'s>(scene: &'s Scene, material: &str) -> Vec<&'s Piece> {
     wanted.collect()
 }
 
+/// The size of all pieces.
+pub fn sum(pieces: &[&Piece]) -> f64 {
+    pieces.iter().map(|p| size(&p.polygon)).sum()
+}
+
 /// The size of all that is of a material.
 pub fn total(scene: &Scene, material: &str) -> f64 {
-    of(scene, material).iter().map(|p| size(&p.polygon)).sum()
+    sum(&of(scene, material))
+}
+
+/// To six digits behind the point, where trigonometry has a part.
+pub fn close(found: f64, wanted: f64) -> bool {
+    (found - wanted).abs() < 1e-6
 }
 
 pub fn near(found: f64, wanted: f64) -> bool {
@@ -161,6 +171,63 @@ pub fn stairs() -> impl Strategy<Value = Polygon<f64>> {
         });
         Polygon::new(turned.collect(), vec![])
     })
+}
+
+/// Outlines of both sorts, so many times as many of any shape.
+pub fn any_outline(times: u32) -> impl Strategy<Value = Polygon<f64>> {
+    prop_oneof![times => outline(), 1 => stairs()]
+}
+
+/// Points in local coordinates, as a grammar writes them.
+pub fn points_by_hand(count: std::ops::Range<usize>) -> impl Strategy<Value = String> {
+    vec((0.0..1.0_f64, 0.0..1.0_f64), count).prop_map(|all| {
+        let all: Vec<String> = all.iter().map(|(x, y)| format!("({x}, {y})")).collect();
+        format!("[{}]", all.join(", "))
+    })
+}
+
+/// What rules make of an outline; none if the region does not suit and the error
+/// says why, in one of the ways that are known.
+pub fn derived(
+    outline: &Polygon<f64>,
+    rules: &str,
+    seed: u64,
+    known: &[&str],
+) -> Result<Option<Scene>, TestCaseError> {
+    match park(outline, rules, seed) {
+        Ok(scene) => Ok(Some(scene)),
+        Err(error @ ParkError::Rule(_)) => {
+            let said = error.to_string();
+            prop_assert!(known.iter().any(|k| said.contains(k)), "{}", said);
+            Ok(None)
+        }
+        Err(error) => {
+            prop_assert!(false, "{}", error);
+            Ok(None)
+        }
+    }
+}
+
+/// What rules make of an outline, which tiles it and is the same for one seed; none
+/// if the region does not suit and the error says why.
+pub fn tiling(
+    outline: &Polygon<f64>,
+    rules: &str,
+    points: &[(f64, f64)],
+    seed: u64,
+) -> Result<Option<Scene>, TestCaseError> {
+    match park(outline, rules, seed) {
+        Ok(scene) => {
+            is_tiled(outline, &scene, points)?;
+            let again = park(outline, rules, seed);
+            prop_assert_eq!(again.as_ref(), Ok(&scene));
+            Ok(Some(scene))
+        }
+        Err(error) => {
+            prop_assert!(matches!(error, ParkError::Rule(_)), "{}", error);
+            Ok(None)
+        }
+    }
 }
 
 /// That pieces tile an outline: sizes to 1e-9, nothing outside, and each point in
@@ -243,12 +310,74 @@ impl Motion {
     }
 
     pub fn polygon(self, polygon: &Polygon<f64>) -> Polygon<f64> {
-        let ring = |line: &LineString<f64>| line.0.iter().map(|&c| self.of(c)).collect();
-        Polygon::new(
-            ring(polygon.exterior()),
-            polygon.interiors().iter().map(ring).collect(),
-        )
+        mapped(polygon, |c| self.of(c))
     }
+}
+
+/// A polygon with each of its points moved.
+pub fn mapped(polygon: &Polygon<f64>, to: impl Fn(Coord<f64>) -> Coord<f64>) -> Polygon<f64> {
+    let ring = |line: &LineString<f64>| line.0.iter().map(|&c| to(c)).collect();
+    Polygon::new(
+        ring(polygon.exterior()),
+        polygon.interiors().iter().map(ring).collect(),
+    )
+}
+
+/// The two mirror images of a park of that width and height whose lower left corner
+/// is the origin: left and right, and upside down.
+pub fn mirrors(width: f64, height: f64) -> [Motion; 2] {
+    [
+        Motion {
+            angle: 0.0,
+            mirror: true,
+            by: Coord { x: width, y: 0.0 },
+        },
+        // Mirrored and turned by half a turn.
+        Motion {
+            angle: std::f64::consts::PI,
+            mirror: true,
+            by: Coord { x: 0.0, y: height },
+        },
+    ]
+}
+
+/// That in the cells of a grid, which are mirror images, what a rule makes of two
+/// places is mirrored, and what goes by sides and coordinates of its parts with it.
+/// The rule is given the places.
+pub fn is_mirrored_in_cells(
+    [width, height]: [f64; 2],
+    a: (f64, f64),
+    b: (f64, f64),
+    rule: impl Fn(&str) -> String,
+) -> Result<(), TestCaseError> {
+    if (a.0 - b.0).hypot(a.1 - b.1) < 0.1 {
+        return Ok(());
+    }
+    let rule = rule(&format!("[({}, {}), ({}, {})]", a.0, a.1, b.0, b.1));
+    let rules = format!(
+        "Region -> Grid(2, 2) {{ Quarter }} {{ Paving }}
+        Quarter -> {rule} {{ Cell }} {{ Gravel }}
+        Cell -> Meadow Place(EDGE[0]: 0.3, EDGE[1]: 0.3, EDGE[-1]: 0.2, CORNER[0]) {{ Lamp }} Place((0.7, 0.6)) {{ Bush }}"
+    );
+    let scene = park(&rectangle(width, height), &rules, 3).expect("derives");
+    for mirror in mirrors(width, height) {
+        is_image(&scene, &scene, mirror, 1e-5)?;
+    }
+    Ok(())
+}
+
+/// An oblong of 80 by 60 that begins at a point.
+pub fn oblong(x: f64, y: f64) -> Polygon<f64> {
+    polygon(&[(x, y), (x + 80., y), (x + 80., y + 60.), (x, y + 60.)])
+}
+
+/// The park of a whole grammar on an oblong, where every mesh that it names is one
+/// and the same.
+pub fn park_with_mesh(grammar: &str, mesh: &str, x: f64, y: f64) -> Scene {
+    let load = |_: &str| Ok(mesh.to_owned());
+    Grammar::with_includes("park", grammar, &load)
+        .and_then(|grammar| grammar.derive(&oblong(x, y), &DeriveOptions::default()))
+        .expect("derives")
 }
 
 /// That what one scene has of each material has its image in the other: as much,

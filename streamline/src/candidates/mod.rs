@@ -308,14 +308,7 @@ fn validate(
     seeds: &[Seed],
     options: &CandidateOptions,
 ) -> Result<Vec<[Coord<f64>; 2]>, TraceError> {
-    if !(options.separation > 0.0 && options.separation.is_finite()) {
-        let (name, value) = ("separation", options.separation);
-        return Err(TraceError::BadOption {
-            name,
-            value,
-            expected: "positive and finite",
-        });
-    }
+    TraceError::unless_positive("separation", options.separation)?;
     let mut directions = Vec::with_capacity(seeds.len());
     for (index, seed) in seeds.iter().enumerate() {
         if !is_finite(seed.at) {

@@ -237,6 +237,13 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
         ]
     }
 
+    /// The unit direction of the arm nearest to `heading`.
+    fn arm(&mut self, at: Point, heading: Point) -> Option<Point> {
+        self.field
+            .direction(at, heading, &mut self.cursor)
+            .and_then(unit)
+    }
+
     /// Traces a line unless another one runs alongside within `clearance`
     /// separations; true if it was placed.
     pub(super) fn start(
@@ -250,11 +257,7 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
         if !self.options.families[usize::from(family)] {
             return false;
         }
-        let Some(along) = self
-            .field
-            .direction(at, heading, &mut self.cursor)
-            .and_then(unit)
-        else {
+        let Some(along) = self.arm(at, heading) else {
             return false;
         };
         let separation = self.spacing.at(at, family);
@@ -368,11 +371,7 @@ impl<'a, F: DirectionField + ?Sized> Placer<'a, F> {
     ) -> f64 {
         let separation = self.spacing.at(at, family);
         let least = ADVANCE * separation;
-        let Some(along) = self
-            .field
-            .direction(at, heading, &mut self.cursor)
-            .and_then(unit)
-        else {
+        let Some(along) = self.arm(at, heading) else {
             return least;
         };
         let reach = clearance * separation;

@@ -107,13 +107,7 @@ impl PlacementOptions {
     pub(super) fn validate(&self) -> Result<(), TraceError> {
         self.trace.validate()?;
         for value in self.separation {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(TraceError::BadOption {
-                    name: "separation",
-                    value,
-                    expected: "positive and finite",
-                });
-            }
+            TraceError::unless_positive("separation", value)?;
         }
         if !(0.1..=1.0).contains(&self.test) {
             return Err(TraceError::BadOption {
@@ -131,14 +125,7 @@ impl PlacementOptions {
                 });
             }
         }
-        if !(self.min_length >= 0.0 && self.min_length.is_finite()) {
-            return Err(TraceError::BadOption {
-                name: "min_length",
-                value: self.min_length,
-                expected: "zero or positive, and finite",
-            });
-        }
-        Ok(())
+        TraceError::unless_not_negative("min_length", self.min_length)
     }
 }
 

@@ -83,23 +83,12 @@ impl Score for Continuity {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::field::from_fn;
-    use crate::trace::{trace, TraceOptions};
+    use crate::score::eastwards;
     use crate::vector::point;
-    use geo_types::polygon;
 
     #[test]
     fn one_half_for_each_end() {
-        let domain =
-            polygon![(x: 0., y: 0.), (x: 100., y: 0.), (x: 100., y: 100.), (x: 0., y: 100.)];
-        let east = from_fn(domain, |_, _| Some(point(1.0, 0.0)));
-        let line = trace(
-            &east,
-            point(50.0, 40.0),
-            point(1.0, 0.0),
-            &TraceOptions::default(),
-        )
-        .unwrap();
+        let (east, line) = eastwards();
         let cost = |ends: &[(Coord<f64>, Coord<f64>)]| {
             Continuity {
                 ends: ends.to_vec(),

@@ -62,3 +62,21 @@ impl<T: Score + ?Sized> Score for &T {
         (**self).cost(line, field)
     }
 }
+
+/// For tests: the field that points east on a square of 100 m, and its line that
+/// crosses the square 40 m from the southern side.
+#[cfg(test)]
+fn eastwards() -> (impl DirectionField, Streamline) {
+    use crate::trace::{trace, TraceOptions};
+    use crate::vector::point;
+    use geo_types::polygon;
+
+    let domain = polygon![
+        (x: 0., y: 0.), (x: 100., y: 0.), (x: 100., y: 100.), (x: 0., y: 100.)
+    ];
+    let east = crate::field::from_fn(domain, |_, _| Some(point(1.0, 0.0)));
+    let options = TraceOptions::default();
+    let line = trace(&east, point(50.0, 40.0), point(1.0, 0.0), &options);
+    let line = line.expect("the field has a direction there");
+    (east, line)
+}

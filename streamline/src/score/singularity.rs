@@ -36,23 +36,12 @@ impl Score for SingularityDistance {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::field::from_fn;
-    use crate::trace::{trace, TraceOptions};
+    use crate::score::eastwards;
     use crate::vector::point;
-    use geo_types::polygon;
 
     #[test]
     fn the_nearest_counts_and_none_costs_nothing() {
-        let domain =
-            polygon![(x: 0., y: 0.), (x: 100., y: 0.), (x: 100., y: 100.), (x: 0., y: 100.)];
-        let east = from_fn(domain, |_, _| Some(point(1.0, 0.0)));
-        let line = trace(
-            &east,
-            point(50.0, 40.0),
-            point(1.0, 0.0),
-            &TraceOptions::default(),
-        )
-        .unwrap();
+        let (east, line) = eastwards();
         assert_eq!(SingularityDistance::default().cost(&line, &east), 0.0);
         let score = SingularityDistance {
             singularities: vec![point(20.0, 90.0), point(70.3, 33.0)],

@@ -150,7 +150,7 @@ pub fn separatrix_arms<F: DirectionField + ?Sized>(
     singularity: &Singularity,
     radius: f64,
 ) -> Result<Vec<f64>, TraceError> {
-    positive("radius", radius)?;
+    TraceError::unless_positive("radius", radius)?;
     finite(std::slice::from_ref(singularity))?;
     Ok(arms(field, singularity, radius).angles)
 }
@@ -207,14 +207,8 @@ pub fn separatrices<F: DirectionField + ?Sized>(
     options: &SeparatrixOptions,
 ) -> Result<Vec<Separatrix>, TraceError> {
     options.trace.validate()?;
-    positive("radius", options.radius)?;
-    if !(options.capture >= 0.0 && options.capture.is_finite()) {
-        return Err(TraceError::BadOption {
-            name: "capture",
-            value: options.capture,
-            expected: "zero or positive, and finite",
-        });
-    }
+    TraceError::unless_positive("radius", options.radius)?;
+    TraceError::unless_not_negative("capture", options.capture)?;
     finite(singularities)?;
     let mut all = Vec::with_capacity(singularities.len());
     for (index, singularity) in singularities.iter().enumerate() {
@@ -271,18 +265,6 @@ pub fn separatrices<F: DirectionField + ?Sized>(
         junctions::cut(&mut lines);
     }
     Ok(lines)
-}
-
-fn positive(name: &'static str, value: f64) -> Result<(), TraceError> {
-    if value > 0.0 && value.is_finite() {
-        Ok(())
-    } else {
-        Err(TraceError::BadOption {
-            name,
-            value,
-            expected: "positive and finite",
-        })
-    }
 }
 
 fn finite(singularities: &[Singularity]) -> Result<(), TraceError> {

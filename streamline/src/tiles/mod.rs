@@ -120,13 +120,7 @@ pub fn tiles(
     lines: &[LineString<f64>],
     options: &TileOptions,
 ) -> Result<Tiling, TraceError> {
-    if !(options.snap >= 0.0 && options.snap.is_finite()) {
-        return Err(TraceError::BadOption {
-            name: "snap",
-            value: options.snap,
-            expected: "zero or positive, and finite",
-        });
-    }
+    TraceError::unless_not_negative("snap", options.snap)?;
     let grid = Grid::new(domain)?;
     let (raw, ranges) = gather(&grid, domain, lines)?;
     let pieces = snap(&join(&raw, &ranges, options.snap / grid.spacing));

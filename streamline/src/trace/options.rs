@@ -82,21 +82,10 @@ impl TraceOptions {
     }
 
     pub(crate) fn validate(&self) -> Result<(), TraceError> {
-        let positive = |name, value: f64| {
-            if value > 0.0 && value.is_finite() {
-                Ok(())
-            } else {
-                Err(TraceError::BadOption {
-                    name,
-                    value,
-                    expected: "positive and finite",
-                })
-            }
-        };
-        positive("step", self.step)?;
-        positive("max_step", self.max_step)?;
-        positive("tolerance", self.tolerance)?;
-        positive("max_length", self.max_length)?;
+        TraceError::unless_positive("step", self.step)?;
+        TraceError::unless_positive("max_step", self.max_step)?;
+        TraceError::unless_positive("tolerance", self.tolerance)?;
+        TraceError::unless_positive("max_length", self.max_length)?;
         if !(self.max_turn_deg > 0.0 && self.max_turn_deg <= 45.0) {
             let (name, value) = ("max_turn_deg", self.max_turn_deg);
             return Err(TraceError::BadOption {
@@ -105,19 +94,8 @@ impl TraceOptions {
                 expected: "above 0 and at most 45",
             });
         }
-        for (name, value) in [
-            ("self_approach", self.self_approach),
-            ("loop_tolerance", self.loop_tolerance),
-        ] {
-            if !(value >= 0.0 && value.is_finite()) {
-                return Err(TraceError::BadOption {
-                    name,
-                    value,
-                    expected: "zero or positive, and finite",
-                });
-            }
-        }
-        Ok(())
+        TraceError::unless_not_negative("self_approach", self.self_approach)?;
+        TraceError::unless_not_negative("loop_tolerance", self.loop_tolerance)
     }
 }
 

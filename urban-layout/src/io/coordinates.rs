@@ -30,6 +30,16 @@ pub(super) fn number(value: f64, decimals: usize) -> String {
     }
 }
 
+/// The beginning of a FeatureCollection in the coordinates of the frame's source,
+/// up to its members.
+pub(super) fn collection(frame: &Frame) -> String {
+    let mut text = String::from("{\"type\":\"FeatureCollection\",");
+    if !frame.is_degrees() {
+        text.push_str("\"coordinate_units\":\"metres\",");
+    }
+    text
+}
+
 /// Appends a point, in the coordinates of the frame's source.
 pub(super) fn push_position(text: &mut String, frame: &Frame, c: Coord<f64>) {
     push_finer(text, frame, c, 0);

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use geo_types::{Coord, Polygon};
 
-use super::coordinates::{number, push_line, push_position};
+use super::coordinates::{collection, number, push_line, push_position};
 use super::frame::Frame;
 use crate::floorplan::draw::DrawnRoom;
 use crate::floorplan::FloorplanStudy;
@@ -21,10 +21,7 @@ use crate::floorplan::FloorplanStudy;
 /// `of`, the id of its room or shaft, `width_m`) and `entrance` (Point).
 #[must_use]
 pub fn floorplan_to_geojson(study: &FloorplanStudy, frame: &Frame) -> String {
-    let mut text = String::from("{\"type\":\"FeatureCollection\",");
-    if !frame.is_degrees() {
-        text.push_str("\"coordinate_units\":\"metres\",");
-    }
+    let mut text = collection(frame);
     text.push_str("\"features\":[");
     let mut writer = Writer {
         text,

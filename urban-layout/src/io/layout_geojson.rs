@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 
 use geo_types::{Coord, LineString, MultiPolygon, Polygon};
 
-use super::coordinates::{number, push_line, push_position};
+use super::coordinates::{collection, number, push_line, push_position};
 use super::frame::Frame;
 use crate::layout::plane::{polygon_area, rings};
 use crate::layout::{Block, Junction, Layout, Lineage, ParcelInfo, Street, Tile, TileKind};
@@ -36,14 +36,10 @@ pub use read::read_layout;
 #[must_use]
 pub fn layout_to_geojson(layout: &Layout, frame: &Frame) -> String {
     let mut out = Writer {
-        text: String::new(),
+        text: collection(frame),
         frame,
         empty: true,
     };
-    out.text.push_str("{\"type\":\"FeatureCollection\",");
-    if !frame.is_degrees() {
-        out.text.push_str("\"coordinate_units\":\"metres\",");
-    }
     let _ = write!(out.text, "\"seed\":{},\"features\":[", layout.seed);
     out.site(layout);
     layout.blocks.iter().for_each(|block| out.block(block));

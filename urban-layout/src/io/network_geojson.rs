@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use super::coordinates::{number, push_line, push_position};
+use super::coordinates::{collection, number, push_line, push_position};
 use super::frame::Frame;
 use crate::design::NetworkStudy;
 
@@ -18,10 +18,7 @@ use crate::design::NetworkStudy;
 /// Points of the kind `sink` with `id`, `part` and `level`.
 #[must_use]
 pub fn network_to_geojson(study: &NetworkStudy, frame: &Frame) -> String {
-    let mut text = String::from("{\"type\":\"FeatureCollection\",");
-    if !frame.is_degrees() {
-        text.push_str("\"coordinate_units\":\"metres\",");
-    }
+    let mut text = collection(frame);
     text.push_str("\"features\":[");
     let mut id = 0;
     for (index, part) in study.parts.iter().enumerate() {

@@ -6,7 +6,7 @@ use geo_types::{Coord, LineString, Polygon};
 use park_grammar::scene::{Ground, Object, Piece, Volume};
 use park_grammar::Scene;
 
-use super::coordinates::{number, push_finer};
+use super::coordinates::{collection, number, push_finer};
 use super::frame::Frame;
 use crate::layout::plane::rings;
 use crate::layout::Layout;
@@ -84,10 +84,7 @@ struct Writer<'f> {
 
 impl<'f> Writer<'f> {
     fn new(frame: &'f Frame, about: &str) -> Self {
-        let mut text = String::from("{\"type\":\"FeatureCollection\",");
-        if !frame.is_degrees() {
-            text.push_str("\"coordinate_units\":\"metres\",");
-        }
+        let mut text = collection(frame);
         text.push_str(about);
         text.push_str("\"features\":[");
         Self {

@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use super::coordinates::{number, push_line};
+use super::coordinates::{collection, number, push_line};
 use super::frame::Frame;
 use crate::streamlines::{stop_word, StreamlineStudy};
 
@@ -19,10 +19,7 @@ use crate::streamlines::{stop_word, StreamlineStudy};
 /// repeats its first point at the end.
 #[must_use]
 pub fn streamlines_to_geojson(study: &StreamlineStudy, frame: &Frame) -> String {
-    let mut text = String::from("{\"type\":\"FeatureCollection\",");
-    if !frame.is_degrees() {
-        text.push_str("\"coordinate_units\":\"metres\",");
-    }
+    let mut text = collection(frame);
     text.push_str("\"features\":[");
     let mut id = 0;
     for (index, part) in study.parts.iter().enumerate() {

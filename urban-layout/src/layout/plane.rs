@@ -242,6 +242,19 @@ impl RTreeObject for Segment {
     }
 }
 
+/// Pairs of points as segments of one owner, counted.
+fn segments<'a>(
+    owner: usize,
+    pairs: impl Iterator<Item = &'a [Coord<f64>]> + 'a,
+) -> impl Iterator<Item = Segment> + 'a {
+    pairs.enumerate().map(move |(index, w)| Segment {
+        a: w[0],
+        b: w[1],
+        owner,
+        index,
+    })
+}
+
 /// An index of segments.
 #[derive(Debug)]
 pub(crate) struct Segments(RTree<Segment>);
@@ -251,15 +264,9 @@ impl Segments {
     pub(crate) fn of_lines<'a>(lines: impl IntoIterator<Item = &'a [Coord<f64>]>) -> Self {
         let mut all = Vec::new();
         for (owner, line) in lines.into_iter().enumerate() {
-            all.extend(line.windows(2).enumerate().map(|(index, w)| Segment {
-                a: w[0],
-                b: w[1],
-                owner,
-                index,
-            }));
+            all.extend(segments(owner, line.windows(2)));
         }
-        all.retain(|s: &Segment| usable(s.a) && usable(s.b));
-        Self(RTree::bulk_load(all))
+        Self::of(all)
     }
 
     /// Indexes the edges of polygons; `owner` is the polygon's number, `index`
@@ -268,14 +275,14 @@ impl Segments {
         let mut all = Vec::new();
         for (owner, polygon) in polygons.into_iter().enumerate() {
             let edges = rings(polygon).flat_map(|ring| ring.0.windows(2));
-            all.extend(edges.enumerate().map(|(index, w)| Segment {
-                a: w[0],
-                b: w[1],
-                owner,
-                index,
-            }));
+            all.extend(segments(owner, edges));
         }
-        all.retain(|s: &Segment| usable(s.a) && usable(s.b));
+        Self::of(all)
+    }
+
+    /// Indexes those whose ends are numbers.
+    fn of(mut all: Vec<Segment>) -> Self {
+        all.retain(|s| usable(s.a) && usable(s.b));
         Self(RTree::bulk_load(all))
     }
 

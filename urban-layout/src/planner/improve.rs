@@ -46,12 +46,7 @@ pub(crate) fn improve(
     progress: &mut dyn Progress,
 ) -> Result<()> {
     let whole = root.steps().is_empty();
-    let faces: BTreeSet<FaceId> = tree
-        .leaves
-        .values()
-        .filter(|l| l.path.is_within(root))
-        .map(|l| l.face)
-        .collect();
+    let faces: BTreeSet<FaceId> = tree.within(root).map(|leaf| leaf.face).collect();
     if whole {
         let network = &tree.network;
         let pinned: BTreeSet<VertexId> = network

@@ -80,6 +80,13 @@ impl Pending {
 }
 
 impl Tree {
+    /// The leaves at a path and below it.
+    pub(crate) fn within<'t>(&'t self, root: &'t Path) -> impl Iterator<Item = &'t Leaf> {
+        self.leaves
+            .values()
+            .filter(|leaf| leaf.path.is_within(root))
+    }
+
     /// The tree of a site before any split, and its root regions.
     pub(crate) fn new(site: &Site) -> Result<(Self, Vec<Pending>)> {
         let network = Network::new(site)?;

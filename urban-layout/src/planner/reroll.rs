@@ -13,12 +13,7 @@ use crate::planner::{Pending, Tree};
 /// leaves out of the tree; what is left is the one region that waits there.
 /// Everything outside stays as it is.
 pub(crate) fn clear(tree: &mut Tree, root: &Path) -> Result<Pending> {
-    let faces: BTreeSet<FaceId> = tree
-        .leaves
-        .values()
-        .filter(|l| l.path.is_within(root))
-        .map(|l| l.face)
-        .collect();
+    let faces: BTreeSet<FaceId> = tree.within(root).map(|leaf| leaf.face).collect();
     if faces.is_empty() {
         return Err(Error::usage(format!(
             "no region has the path {root}; paths are the `split` of the layout's features"

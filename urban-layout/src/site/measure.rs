@@ -122,16 +122,17 @@ pub(crate) fn without_slivers(mut polygons: Vec<Polygon<f64>>, least: f64) -> Ve
 
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
-mod tests {
+pub(crate) mod tests {
     use super::*;
 
-    fn ring(points: &[(f64, f64)]) -> Vec<Coord<f64>> {
+    /// A closed ring.
+    pub(crate) fn ring(points: &[(f64, f64)]) -> Vec<Coord<f64>> {
         let mut ring: Vec<_> = points.iter().map(|&(x, y)| Coord { x, y }).collect();
         ring.push(ring[0]);
         ring
     }
 
-    fn square(x: f64, y: f64, s: f64) -> Vec<Coord<f64>> {
+    pub(crate) fn square(x: f64, y: f64, s: f64) -> Vec<Coord<f64>> {
         ring(&[(x, y), (x + s, y), (x + s, y + s), (x, y + s)])
     }
 

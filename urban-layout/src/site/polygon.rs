@@ -370,16 +370,7 @@ pub(crate) fn join(parts: Vec<Polygon<f64>>) -> (Vec<Polygon<f64>>, bool, bool) 
 mod tests {
     use super::*;
     use crate::site::measure::rings;
-
-    fn ring(points: &[(f64, f64)]) -> Vec<Coord<f64>> {
-        let mut ring: Vec<_> = points.iter().map(|&(x, y)| Coord { x, y }).collect();
-        ring.push(ring[0]);
-        ring
-    }
-
-    fn square(x: f64, y: f64, s: f64) -> Vec<Coord<f64>> {
-        ring(&[(x, y), (x + s, y), (x + s, y + s), (x, y + s)])
-    }
+    use crate::site::measure::tests::{ring, square};
 
     fn admitted(raw: &[Vec<Coord<f64>>]) -> Result<(Vec<Polygon<f64>>, Vec<WarningKind>)> {
         let mut warnings = Vec::new();

@@ -2,6 +2,8 @@
 
 use geo_types::Coord;
 
+use super::measure::bounds;
+
 /// A ring on its way in: local coordinates, open (the first vertex is not
 /// repeated), each vertex with its position in the file's ring.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -201,20 +203,10 @@ pub(crate) fn doubled_area(points: &[Coord<f64>]) -> f64 {
 
 /// The diagonal of the bounding box.
 pub(crate) fn extent(points: &[Coord<f64>]) -> f64 {
-    let Some(&first) = points.first() else {
+    if points.is_empty() {
         return 0.0;
-    };
-    let (mut low, mut high) = (first, first);
-    for p in points {
-        low = Coord {
-            x: low.x.min(p.x),
-            y: low.y.min(p.y),
-        };
-        high = Coord {
-            x: high.x.max(p.x),
-            y: high.y.max(p.y),
-        };
     }
+    let (low, high) = bounds(points);
     (high.x - low.x).hypot(high.y - low.y)
 }
 

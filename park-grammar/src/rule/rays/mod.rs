@@ -99,10 +99,7 @@ pub(crate) fn rays(ask: &mut Ask<'_, '_>) -> Result<Partition, Failure> {
     let mut chance = ask.scope.chance.child();
     let watch = ask.scope.watch();
     let found = divided(ask.scope.region, &asked, &mut chance, Some(&watch))?;
-    found.ok_or_else(|| {
-        let error = "the paths leave no room for regions";
-        Failure::unfit(ask.operation.span, error)
-    })
+    super::with_room(found, ask.operation)
 }
 
 /// The walk-graph of a region.

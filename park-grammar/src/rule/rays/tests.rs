@@ -1,92 +1,26 @@
 //! Laws of paths and cells in regions of any shape, with centres put by hand.
 
 use super::*;
-use crate::plane::{dist, nearest_on, sees, sides, signed_area, Ring};
+use crate::plane::{dist, nearest_on, sees, sides, signed_area};
+use crate::rule::trial::{self, config, outline, Motion, Outline};
 use crate::select::named;
 use geo_types::coord;
 use proptest::prelude::*;
 
-/// Few cases, or with `URBAN_LAYOUT_LONG` many.
-fn config(few: u32, many: u32) -> ProptestConfig {
-    let long = std::env::var_os("URBAN_LAYOUT_LONG").is_some();
-    ProptestConfig::with_cases(if long { many } else { few })
-}
-
-/// A region of any shape around the middle, concave as a rule, with or without a
-/// hole there.
-fn outline() -> impl Strategy<Value = (Vec<Coord<f64>>, bool)> {
-    let ring = proptest::collection::vec((0.2..1.0_f64, 15.0..90.0_f64), 4..=40);
-    (ring, 0.0..6.3_f64, any::<bool>()).prop_map(|(steps, start, hole)| {
-        let whole: f64 = steps.iter().map(|s| s.0).sum();
-        let mut angle = start;
-        let points = steps.iter().map(|(step, radius)| {
-            angle += step / whole * std::f64::consts::TAU;
-            coord! { x: radius * angle.cos(), y: radius * angle.sin() }
-        });
-        // The hole of radius 3 lies inside if no step is more than 150 degrees.
-        let steep = steps.iter().any(|(step, _)| step / whole > 0.41);
-        (points.collect(), hole && !steep)
-    })
-}
-
-/// Turned, mirrored if wanted, and moved.
-#[derive(Clone, Copy, Debug)]
-struct Motion {
-    angle: f64,
-    mirror: bool,
-    by: Coord<f64>,
-}
-
-impl Motion {
-    const NONE: Self = Self {
-        angle: 0.0,
-        mirror: false,
-        by: Coord { x: 0.0, y: 0.0 },
-    };
-
-    fn of(self, p: Coord<f64>) -> Coord<f64> {
-        let x = if self.mirror { -p.x } else { p.x };
-        let (sin, cos) = self.angle.sin_cos();
-        let turned = coord! { x: x * cos - p.y * sin, y: x * sin + p.y * cos };
-        turned + self.by
-    }
-}
-
-fn region((points, holed): &(Vec<Coord<f64>>, bool), motion: Motion) -> Region {
-    let moved = |ring: &[Coord<f64>]| -> Ring { ring.iter().map(|&p| motion.of(p)).collect() };
-    let hole = || -> Ring {
-        // Not regular: arcs of just so many steps have one more by rounding.
-        let angles = (0..6).map(|k| (f64::from(k) + 0.01 * f64::from(k * k)) * 1.02 + 0.3);
-        angles
-            .map(|a| coord! { x: 3.0 * a.cos(), y: 3.0 * a.sin() })
-            .collect()
-    };
-    let holes = if *holed {
-        vec![moved(&hole())]
-    } else {
-        Vec::new()
-    };
-    let mut region = Region::bare(Area::new(moved(points), holes));
-    crate::index::park(&mut region);
-    region
+fn region(outline: &Outline, motion: Motion) -> Region {
+    // Not regular: arcs of just so many steps have one more by rounding.
+    let angle = |k: i32| (f64::from(k) + 0.01 * f64::from(k * k)) * 1.02 + 0.3;
+    trial::region(outline, [0, 1, 2, 3, 4, 5].map(angle), motion)
 }
 
 /// Corners that no region's own numbering has a say in.
-fn corners(outline: &(Vec<Coord<f64>>, bool), motion: Motion) -> Targets {
+fn corners(outline: &Outline, motion: Motion) -> Targets {
     let corners = outline.0.iter().step_by(3).map(|&p| motion.of(p));
     Targets::Places(corners.collect())
 }
 
 fn spots(region: &Region, at: &[(f64, f64)], motion: Motion) -> Vec<Spot> {
-    let all = at.iter().map(|&(x, y)| motion.of(coord! { x: x, y: y }));
-    let inside = all.filter(|&p| region.area.contains(p) && region.area.nearest(p).1 > 0.1);
-    inside
-        .map(|at| Spot {
-            at,
-            radius: 0.0,
-            facing: 0.0,
-        })
-        .collect()
+    trial::spots(region, at, motion, 0.1)
 }
 
 fn asked(spots: Vec<Spot>, targets: Targets, rays: Rays, join: Join, width: f64) -> Asked {

@@ -1,73 +1,18 @@
 //! Laws of the cells of regions of any shape, with places put by hand.
 
 use super::*;
-use crate::plane::{cross, dist, dot, sides, Area};
+use crate::plane::{cross, dist, dot, sides};
+use crate::rule::trial::{self, config, outline, Motion, Outline};
 use geo_types::{coord, Coord};
 use proptest::prelude::*;
 
-/// Few cases, or with `URBAN_LAYOUT_LONG` many.
-fn config(few: u32, many: u32) -> ProptestConfig {
-    let long = std::env::var_os("URBAN_LAYOUT_LONG").is_some();
-    ProptestConfig::with_cases(if long { many } else { few })
+/// Where the corners of a hole are.
+fn angles(start: f64) -> [f64; 6] {
+    [0, 1, 2, 3, 4, 5].map(|k| f64::from(k) / 6.0 * std::f64::consts::TAU + start)
 }
 
-/// A region of any shape around the middle, concave as a rule, with or without a
-/// hole there.
-fn outline() -> impl Strategy<Value = (Vec<Coord<f64>>, bool)> {
-    let ring = proptest::collection::vec((0.2..1.0_f64, 15.0..90.0_f64), 4..=40);
-    (ring, 0.0..6.3_f64, any::<bool>()).prop_map(|(steps, start, hole)| {
-        let whole: f64 = steps.iter().map(|s| s.0).sum();
-        let mut angle = start;
-        let points = steps.iter().map(|(step, radius)| {
-            angle += step / whole * std::f64::consts::TAU;
-            coord! { x: radius * angle.cos(), y: radius * angle.sin() }
-        });
-        // The hole of radius 3 lies inside if no step is more than 150 degrees.
-        let steep = steps.iter().any(|(step, _)| step / whole > 0.41);
-        (points.collect(), hole && !steep)
-    })
-}
-
-fn hole(start: f64) -> Ring {
-    (0..6)
-        .map(|k| f64::from(k) / 6.0 * std::f64::consts::TAU + start)
-        .map(|a| coord! { x: 3.0 * a.cos(), y: 3.0 * a.sin() })
-        .collect()
-}
-
-/// Turned, mirrored if wanted, and moved.
-#[derive(Clone, Copy, Debug)]
-struct Motion {
-    angle: f64,
-    mirror: bool,
-    by: Coord<f64>,
-}
-
-impl Motion {
-    const NONE: Self = Self {
-        angle: 0.0,
-        mirror: false,
-        by: Coord { x: 0.0, y: 0.0 },
-    };
-
-    fn of(self, p: Coord<f64>) -> Coord<f64> {
-        let x = if self.mirror { -p.x } else { p.x };
-        let (sin, cos) = self.angle.sin_cos();
-        let turned = coord! { x: x * cos - p.y * sin, y: x * sin + p.y * cos };
-        turned + self.by
-    }
-}
-
-fn region((points, holed): &(Vec<Coord<f64>>, bool), motion: Motion) -> Region {
-    let moved = |ring: &[Coord<f64>]| -> Ring { ring.iter().map(|&p| motion.of(p)).collect() };
-    let holes = if *holed {
-        vec![moved(&hole(0.3))]
-    } else {
-        Vec::new()
-    };
-    let mut region = Region::bare(Area::new(moved(points), holes));
-    crate::index::park(&mut region);
-    region
+fn region(outline: &Outline, motion: Motion) -> Region {
+    trial::region(outline, angles(0.3), motion)
 }
 
 fn asked(spots: Vec<Spot>, width: f64, amplitude: f64, region: &Region) -> Asked {
@@ -89,19 +34,8 @@ fn asked(spots: Vec<Spot>, width: f64, amplitude: f64, region: &Region) -> Asked
     }
 }
 
-fn spot(at: Coord<f64>, radius: f64) -> Spot {
-    Spot {
-        at,
-        radius,
-        facing: 0.0,
-    }
-}
-
-/// Those that lie inside.
 fn spots(region: &Region, at: &[(f64, f64)], motion: Motion) -> Vec<Spot> {
-    let all = at.iter().map(|&(x, y)| motion.of(coord! { x: x, y: y }));
-    let inside = all.filter(|&p| region.area.contains(p) && region.area.nearest(p).1 > 1e-3);
-    inside.map(|at| spot(at, 0.0)).collect()
+    trial::spots(region, at, motion, 1e-3)
 }
 
 fn sizes(partition: &Partition, output: usize) -> Vec<f64> {
@@ -244,7 +178,7 @@ proptest! {
         for (x, y, radius) in all {
             let at = coord! { x: x, y: y };
             if spots.iter().all(|s| dist(s.at, at) > s.radius + radius) {
-                spots.push(spot(at, radius));
+                spots.push(Spot::new(at, radius));
             }
         }
         let mut asked = asked(spots.clone(), 0.0, 0.0, &region);
@@ -346,7 +280,7 @@ fn hard_places() {
     for at in cases {
         let spots: Vec<Spot> = at
             .iter()
-            .map(|&(x, y)| spot(coord! { x: x, y: y }, 0.0))
+            .map(|&(x, y)| Spot::new(coord! { x: x, y: y }, 0.0))
             .collect();
         for width in [0.0, 1.0] {
             for amplitude in [0.0, 3.0] {
@@ -369,7 +303,7 @@ fn many_places() {
     let mut chance = Stream::new(2);
     let spots: Vec<Spot> = (0..2000)
         .map(|_| {
-            spot(
+            Spot::new(
                 coord! { x: 900.0 * chance.unit(), y: 900.0 * chance.unit() },
                 0.0,
             )

@@ -20,21 +20,10 @@ fn faults(text: &str) -> Vec<(String, String)> {
 }
 
 /// The examples of the notes, as they stand there but for their arrows.
-const NOTES: &str = r#"grammar 1
-PathWidth = 2
-CentreRegionSize = 5
-Region -> Grid(2, 2) { ParkQuarter } { ParkPath } { Romb(3) Fountain }
-ParkQuarter -> Peel(OUTER) { 0.75: TreeStrip | GrassRegion }
-TreeStrip ->  BLUE_GRASS
-Distribute (OUTER_EDGE: 0.375, 2) {TallTree}
-GrassRegion -> GREEN_GRASS
-Place( CENTRE) { TreeRegion }
-DistributeSmooth( Boundary1(Perimeter))  { Bush }
-fun Boundary1(area) ->
-Parametrise([0.02,1], [0, 1], [0, 0.15], 0) { Contract(1, area) }
-TreeRegion -> Circle (1)
-Place (CENTRE) { Tree }
-Beams -> CastRays(CentrePoint [CentreRegionSize], CastToList) { CentreRegion } { CutRegion }
+const NOTES: &str = concat!(
+    "grammar 1\nPathWidth = 2\nCentreRegionSize = 5\n",
+    include_str!("../../../tests/notes/simple_square.park"),
+    r#"Beams -> CastRays(CentrePoint [CentreRegionSize], CastToList) { CentreRegion } { CutRegion }
 CentrePoint -> ScatterCircles(1 {15})
 CastToList -> Corners(Region)
 Free -> VoronoiRegions(CircleRegions) { SmoothRegions } { Path }
@@ -45,7 +34,8 @@ Odd -> Grid (3 {[7,15]a[-15,15]}, 2) { NonWalkableRegion }
 NonWalkableRegion -> Grid (2 {a[-5,5]}, {[1.5,4]a[-25,25]}) { PlantedRegion } {}
 PlantedRegion -> Choose { GrassRegion, BushRegion, Plant1Region /*, … */ }
 Strip -> Peel(OuterEdgesSelection, 0.75, CornersOrthogonal) { TreeStrip | GrassRegion }
-"#;
+"#
+);
 
 #[test]
 fn the_notes_are_read() {

@@ -43,24 +43,13 @@ impl Default for EdgeOptions {
 
 impl EdgeOptions {
     pub(crate) fn validate(&self) -> Result<(), TraceError> {
-        let bad = |name, value, expected| {
-            Err(TraceError::BadOption {
-                name,
-                value,
-                expected,
-            })
-        };
-        if !(self.max_length > 0.0 && self.max_length.is_finite()) {
-            return bad("max_length", self.max_length, "positive and finite");
-        }
+        TraceError::unless_positive("max_length", self.max_length)?;
         for (name, value) in [
             ("self_approach", self.self_approach),
             ("loop_tolerance", self.loop_tolerance),
             ("singular_radius", self.singular_radius),
         ] {
-            if !(value >= 0.0 && value.is_finite()) {
-                return bad(name, value, "zero or positive, and finite");
-            }
+            TraceError::unless_not_negative(name, value)?;
         }
         Ok(())
     }

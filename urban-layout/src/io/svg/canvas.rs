@@ -19,6 +19,23 @@ pub(super) struct Transform {
 }
 
 impl Transform {
+    /// What is between two corners, lowest and highest coordinates, from a place
+    /// of the sheet on: to the right and down.
+    pub(super) fn from_corner(
+        scale: f64,
+        (low, high): (Coord<f64>, Coord<f64>),
+        at: Coord<f64>,
+    ) -> Self {
+        Self {
+            scale,
+            centre: Coord {
+                x: low.x,
+                y: high.y,
+            },
+            at,
+        }
+    }
+
     pub(super) fn place(&self, c: Coord<f64>) -> Coord<f64> {
         Coord {
             x: self.at.x + (c.x - self.centre.x) * self.scale,

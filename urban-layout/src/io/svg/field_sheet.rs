@@ -66,21 +66,15 @@ pub fn field_sheet_svg(site: &Site, panels: &[FieldPanel]) -> String {
         let top = GAP + (k / COLUMNS) as f64 * down + CAPTION;
         canvas.text(&panel.name, left, top - 0.4 * CAPTION, NAME);
         for row in 0..2 {
+            let at = Coord {
+                x: left,
+                y: top + f64::from(row) * (height + GAP),
+            };
             let map = FieldMap {
                 parts: &site.parts,
                 fields: &panel.fields,
                 size,
-                to: Transform {
-                    scale,
-                    centre: Coord {
-                        x: low.x,
-                        y: high.y,
-                    },
-                    at: Coord {
-                        x: left,
-                        y: top + f64::from(row) * (height + GAP),
-                    },
-                },
+                to: Transform::from_corner(scale, (low, high), at),
             };
             if row == 0 {
                 map.crosses(&mut canvas, CROSSES, 3.0);

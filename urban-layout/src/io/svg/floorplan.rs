@@ -76,17 +76,11 @@ pub fn floorplan_svg(study: &FloorplanStudy, site: &Site) -> String {
     for (k, drawing) in study.drawings.iter().enumerate() {
         let left = GAP + (k % columns) as f64 * cell_wide;
         let top = GAP + (k / columns) as f64 * cell_tall;
-        let to = Transform {
-            scale,
-            centre: Coord {
-                x: low.x,
-                y: high.y,
-            },
-            at: Coord {
-                x: left,
-                y: top + HEAD,
-            },
+        let at = Coord {
+            x: left,
+            y: top + HEAD,
         };
+        let to = Transform::from_corner(scale, (low, high), at);
         let mut page = Page {
             canvas: &mut canvas,
             to,

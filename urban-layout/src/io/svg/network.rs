@@ -2,25 +2,21 @@
 
 use geo_types::Coord;
 
-use super::canvas::{Anchor, Lettering, PathData};
-use super::picture::{dot, Picture};
+use super::canvas::PathData;
+use super::picture::{dot, Picture, INK};
 use crate::design::NetworkStudy;
 use crate::plane::{left, length, resample, unit};
 use crate::site::Site;
 
-/// Longer side of the picture, sheet units (200 mm), and the legend below.
-const LONG_SIDE: f64 = 20_000.0;
-const FOOT: f64 = 1500.0;
 /// From near a sink to far from it.
 const SHADES: [&str; 5] = ["#1864ab", "#0b7285", "#2b8a3e", "#e67700", "#c92a2a"];
-const INK: &str = "#343a40";
 
 /// Draws the streets of a study, as wide as they are, on the faint mesh that
 /// they were chosen from; along each a line whose colour says how far it is to
 /// a sink of its level, from blue to red. Sinks that were placed are dots.
 #[must_use]
 pub fn network_svg(study: &NetworkStudy, site: &Site) -> String {
-    let mut picture = Picture::new(site, LONG_SIDE, FOOT);
+    let mut picture = Picture::with_legend(site);
     picture.land("#f8f9fa");
     let to = picture.to;
     let mut mesh = PathData::default();
@@ -151,18 +147,8 @@ fn few_sinks(study: &NetworkStudy) -> Vec<Coord<f64>> {
 }
 
 fn legend(picture: &mut Picture, far: f64) {
-    let top = picture.height + 0.35 * FOOT;
-    let letters = Lettering {
-        cap: 220.0,
-        weight: 0.13,
-        colour: INK,
-        anchor: Anchor::Left,
-    };
     let words = format!("way to a sink: 0 to {far:.0} m");
-    picture
-        .canvas
-        .raw("<style>.t{fill:none;stroke-linecap:round;stroke-linejoin:round}</style>\n");
-    picture.canvas.text(&words, 500.0, top, letters);
+    let top = picture.legend(&words);
     for (k, colour) in SHADES.iter().enumerate() {
         let left = 500.0 + 900.0 * k as f64;
         picture.canvas.rect(

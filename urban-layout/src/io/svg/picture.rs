@@ -4,12 +4,19 @@
 use crossfield::Singularity;
 use geo_types::{Coord, Polygon};
 
-use super::canvas::{Canvas, PathData, Transform};
+use super::canvas::{Anchor, Canvas, Lettering, PathData, Transform};
 use crate::plane::extent;
 use crate::site::Site;
 
 /// Around the site, as a share of the longer side of the picture.
 const MARGIN: f64 = 0.025;
+
+/// Longer side of a picture with a legend, sheet units (200 mm), and the legend
+/// below.
+const LONG_SIDE: f64 = 20_000.0;
+const FOOT: f64 = 1500.0;
+/// Its letters.
+pub(super) const INK: &str = "#343a40";
 
 /// A picture as far as it is drawn.
 pub(super) struct Picture {
@@ -34,17 +41,11 @@ impl Picture {
         let margin = MARGIN * long_side;
         let size = (high.x - low.x).max(high.y - low.y);
         let scale = (long_side - 2.0 * margin) / size;
-        let to = Transform {
-            scale,
-            centre: Coord {
-                x: low.x,
-                y: high.y,
-            },
-            at: Coord {
-                x: margin,
-                y: margin,
-            },
+        let at = Coord {
+            x: margin,
+            y: margin,
         };
+        let to = Transform::from_corner(scale, (low, high), at);
         let width = (high.x - low.x) * scale + 2.0 * margin;
         let height = (high.y - low.y) * scale + 2.0 * margin;
         let sheet = height + foot;
@@ -67,6 +68,27 @@ impl Picture {
             height,
             outline: outline.0,
         }
+    }
+
+    /// Opens a picture of 200 mm with room for a legend.
+    pub(super) fn with_legend(site: &Site) -> Self {
+        Self::new(site, LONG_SIDE, FOOT)
+    }
+
+    /// Writes what a legend says, and how its samples are drawn; gives how far down
+    /// it stands.
+    pub(super) fn legend(&mut self, words: &str) -> f64 {
+        let top = self.height + 0.35 * FOOT;
+        let letters = Lettering {
+            cap: 220.0,
+            weight: 0.13,
+            colour: INK,
+            anchor: Anchor::Left,
+        };
+        self.canvas
+            .raw("<style>.t{fill:none;stroke-linecap:round;stroke-linejoin:round}</style>\n");
+        self.canvas.text(words, 500.0, top, letters);
+        top
     }
 
     /// Fills the site.

@@ -1,13 +1,10 @@
 //! The traffic on a designed network as SVG.
 
-use super::canvas::{Anchor, Lettering, PathData};
+use super::canvas::PathData;
 use super::picture::{dot, Picture};
 use crate::design::StudyTraffic;
 use crate::site::Site;
 
-/// Longer side of the picture, sheet units (200 mm), and the legend below.
-const LONG_SIDE: f64 = 20_000.0;
-const FOOT: f64 = 1500.0;
 /// From little traffic to much, as wide as they are drawn, sheet units.
 const SHADES: [(&str, f64); 5] = [
     ("#1864ab", 50.0),
@@ -17,7 +14,6 @@ const SHADES: [(&str, f64); 5] = [
     ("#c92a2a", 200.0),
 ];
 const NONE: &str = "#adb5bd";
-const INK: &str = "#343a40";
 
 /// Draws the streets of a network by the cars that pass in an hour, both ways
 /// together, in five even steps up to the busiest street: wider and from blue to
@@ -25,7 +21,7 @@ const INK: &str = "#343a40";
 /// figure 8 of *Computational Network Design*.
 #[must_use]
 pub fn traffic_svg(traffic: &StudyTraffic, site: &Site) -> String {
-    let mut picture = Picture::new(site, LONG_SIDE, FOOT);
+    let mut picture = Picture::with_legend(site);
     picture.land("#f8f9fa");
     picture.outline();
     let to = picture.to;
@@ -74,18 +70,8 @@ pub fn traffic_svg(traffic: &StudyTraffic, site: &Site) -> String {
 }
 
 fn legend(picture: &mut Picture, most: f64) {
-    let top = picture.height + 0.35 * FOOT;
-    let letters = Lettering {
-        cap: 220.0,
-        weight: 0.13,
-        colour: INK,
-        anchor: Anchor::Left,
-    };
-    picture
-        .canvas
-        .raw("<style>.t{fill:none;stroke-linecap:round;stroke-linejoin:round}</style>\n");
     let words = format!("cars per hour: none, up to {most:.0}");
-    picture.canvas.text(&words, 500.0, top, letters);
+    let top = picture.legend(&words);
     let boxes = std::iter::once((NONE, 35.0)).chain(SHADES);
     for (k, (colour, pen)) in boxes.enumerate() {
         let left = 500.0 + 900.0 * k as f64;
