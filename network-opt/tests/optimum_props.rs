@@ -6,14 +6,50 @@
 mod common;
 
 use common::brute::{all_valid, open_edges, renamed};
+use common::forever;
 use common::programs::{agrees, solved, solved_by, CLOSE};
 use common::recipe::{config, pattern, recipe, Recipe};
-use network_opt::design::{cost, EdgeState, PatternKind};
+use network_opt::design::{cost, cost_of, EdgeState, Network, PatternKind, Problem};
 use network_opt::formulate::Cuts;
-use network_opt::mip::Microlp;
-use network_opt::solve::Exact;
+use network_opt::mip::{Microlp, MipSolver};
+use network_opt::solve::{Ended, Exact, NetworkSolver};
 use proptest::prelude::*;
 use proptest::sample::subsequence;
+
+/// Solves from the worst valid network on, in steps whatever the size, and looks at
+/// every bound and every network on the way.
+fn in_steps(problem: &Problem, solver: impl MipSolver) -> Result<(), TestCaseError> {
+    let valid = all_valid(problem);
+    let price = |network: &Network| cost_of(problem, network).objective;
+    let worst = valid.iter().max_by(|a, b| price(a).total_cmp(&price(b)));
+    let least = valid.iter().map(price).min_by(f64::total_cmp);
+    let exact = Exact {
+        climbs_from: 0,
+        ..Exact::new(solver)
+    };
+    let mut bounds = vec![];
+    let found = exact
+        .solve(problem, worst, &forever(), &mut |progress| {
+            bounds.push(progress.bound);
+            true
+        })
+        .unwrap();
+    let Some(least) = least else {
+        prop_assert_eq!(found.ended, Ended::Infeasible);
+        return Ok(());
+    };
+    prop_assert_eq!(found.ended, Ended::Proven);
+    prop_assert!(
+        (found.cost.objective - least).abs() < CLOSE,
+        "{found:?} for {least}"
+    );
+    prop_assert!(
+        bounds.iter().all(|&bound| bound <= least + CLOSE),
+        "{bounds:?} for {least}"
+    );
+    prop_assert!(bounds.is_sorted(), "{bounds:?}");
+    Ok(())
+}
 
 proptest! {
     #![proptest_config(config(12))]
@@ -37,6 +73,13 @@ proptest! {
         let problem = recipe.problem();
         prop_assume!(open_edges(&problem) <= 12);
         agrees(&problem, &network_opt::mip::Highs)?;
+    }
+
+    #[test]
+    fn steps_of_highs_lead_to_the_optimum(recipe in recipe()) {
+        let problem = recipe.problem();
+        prop_assume!(open_edges(&problem) <= 12);
+        in_steps(&problem, network_opt::mip::Highs)?;
     }
 }
 
@@ -102,6 +145,20 @@ proptest! {
             (Some(a), Some(b)) => prop_assert!((a - b).abs() < CLOSE, "{a} and {b}"),
             (a, b) => prop_assert_eq!(a, b),
         }
+    }
+}
+
+proptest! {
+    // Few of them have more than one step between the relaxation and the worst.
+    #![proptest_config(config(300))]
+
+    /// Bounds that are raised in steps are bounds at every time, from the worst
+    /// network on, and end at the same optimum.
+    #[test]
+    fn steps_lead_to_the_optimum(recipe in recipe()) {
+        let problem = recipe.problem();
+        prop_assume!(open_edges(&problem) <= 10);
+        in_steps(&problem, Microlp)?;
     }
 }
 

@@ -23,6 +23,7 @@ mod paper;
 mod parents;
 mod patterns;
 mod prepare;
+mod price;
 mod reach;
 mod room_balls;
 mod rooms;
@@ -171,6 +172,9 @@ pub struct Formulated<'p> {
     /// rooms: what these but for those between cost is length, patterns and
     /// wishes.
     plain: [usize; 2],
+    /// What a network costs beside what the program prices, and how much one of
+    /// the program's units is.
+    priced: [f64; 2],
 }
 
 /// Families with columns of their own.
@@ -319,7 +323,7 @@ impl<'p> Formulated<'p> {
             families.len() - 1
         });
         let mut program = draft.program;
-        program.promise_step(step(problem, formulation));
+        program.promise_step(price::step(problem, formulation));
         let own_rows = program.rows().len();
         Ok(Self {
             problem,
@@ -338,6 +342,7 @@ impl<'p> Formulated<'p> {
             contradicts: draft.contradicts,
             longest,
             plain: [plain_columns, room_columns],
+            priced: [0.0, 1.0],
         })
     }
 
@@ -492,23 +497,16 @@ impl<'p> Formulated<'p> {
         self.program.row(row.low, row.high, row.terms);
     }
 
+    /// The rows that were added.
+    pub(crate) fn added(&self) -> &[Row] {
+        &self.program.rows()[self.own_rows..]
+    }
+
     /// Drops added rows that a solution does not need, of connection cuts.
     pub(crate) fn drop_idle_cuts(&mut self, values: &[f64]) {
         if self.connections.is_some() && self.room_balls.is_none() {
             self.program.drop_idle_rows(self.own_rows, values);
         }
-    }
-
-    /// Adds a row: length, patterns, routes and wishes cost `low` at least and `high` at most,
-    /// by their weights. Patterns of [`Formulation::Paper`] are not counted.
-    pub fn limit_length(&mut self, low: f64, high: f64) {
-        let [before, after] = self.plain;
-        let columns = self.program.columns().iter().enumerate();
-        let terms: Vec<(usize, f64)> = columns
-            .filter(|&(k, c)| c.cost != 0.0 && (k < before || k >= after))
-            .map(|(k, c)| (k, c.cost))
-            .collect();
-        self.program.row(low, high, terms);
     }
 
     fn room_family(&self) -> Option<&rooms::Rooms> {
@@ -541,59 +539,4 @@ fn knows_ways(problem: &Problem, formulation: Formulation) -> Result<(), DesignE
 /// in a valid network; `None` if there is no cycle at all.
 pub(crate) fn least_cycle(problem: &Problem) -> Option<usize> {
     cycles::least_cycle(&Draft::new(problem))
-}
-
-/// What the cost of every network is a multiple of, to a billionth; 0 if that
-/// is too little to be of use.
-fn step(problem: &Problem, formulation: Formulation) -> f64 {
-    let fold = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, common);
-    let length = fold(&mut problem.lengths.iter().copied());
-    let over = fold(&mut (0..problem.edges()).map(|e| problem.travel_cost(e)));
-    let travel = match formulation {
-        Formulation::Flow => 0.0,
-        // The mean of two ways.
-        _ if problem.has_one_way() => 0.5 * problem.travel_weight * over,
-        _ => problem.travel_weight * over,
-    };
-    let patterns = fold(&mut problem.patterns.iter().filter_map(|p| p.cost));
-    let routes = fold(&mut problem.routes.iter().filter_map(|r| r.cost));
-    let wishes = problem.rooms.iter().flat_map(|r| &r.wishes);
-    let wishes = fold(&mut wishes.filter_map(|w| w.cost));
-    let parts = [
-        problem.length_weight * length,
-        travel,
-        patterns,
-        routes,
-        wishes,
-    ];
-    let step = fold(&mut parts.into_iter());
-    if step > 1e-5 {
-        step
-    } else {
-        0.0
-    }
-}
-
-/// The largest number of which both are multiples, up to rounding.
-fn common(mut a: f64, mut b: f64) -> f64 {
-    let least = 1e-9 * a.max(b);
-    while b > least {
-        let rest = a % b;
-        // What is a multiple but for rounding leaves nearly nothing, or nearly b.
-        (a, b) = (b, rest.min(b - rest));
-    }
-    a
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn common_steps_are_found() {
-        assert_eq!(common(0.0, 3.0), 3.0);
-        assert_eq!(common(6.0, 4.0), 2.0);
-        assert!((common(0.3, 0.1) - 0.1).abs() < 1e-12);
-        assert!((common(1.0, 0.0001) - 0.0001).abs() < 1e-12);
-    }
 }

@@ -150,7 +150,8 @@ fn run(
 ) -> Result<MipOutcome, DesignError> {
     let began = Instant::now();
     let found = attempt(program, start, limits, shared, true)?;
-    if found.status != MipStatus::Infeasible {
+    // Where that is what was expected, asking twice would take as long again.
+    if found.status != MipStatus::Infeasible || program.is_refuted() {
         return Ok(found);
     }
     let spent = began.elapsed();
@@ -220,6 +221,9 @@ fn configure(model: &mut Model, program: &Program, limits: &Limits, presolve: bo
         .ok()?;
     if !presolve {
         model.try_set_option("presolve", "off").ok()?;
+    }
+    if program.is_refuted() {
+        model.try_set_option("mip_heuristic_effort", 0.0).ok()?;
     }
     if program.columns().iter().all(|c| !c.integer) && program.nonzeros() > LARGE {
         model.try_set_option("solver", "ipm").ok()?;

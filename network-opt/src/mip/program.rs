@@ -44,6 +44,7 @@ pub struct Program {
     columns: Vec<Column>,
     rows: Vec<Row>,
     step: f64,
+    refuted: bool,
 }
 
 impl Program {
@@ -139,6 +140,46 @@ impl Program {
         } else {
             bound
         }
+    }
+
+    /// The next after `cost` that a least solution may cost: one step more, or the
+    /// same where nothing is promised.
+    #[must_use]
+    pub fn after(&self, cost: f64) -> f64 {
+        if self.step > 0.0 {
+            ((cost / self.step + 1e-4).floor() + 1.0) * self.step
+        } else {
+            cost
+        }
+    }
+
+    /// Asks for a proof that no solution costs `level` or less: adds a row that all
+    /// of it costs that at most, and tells solvers that they had better look for a
+    /// contradiction than for a solution. If there is one after all, the least is
+    /// as good an answer.
+    ///
+    /// The row lets pass a little more, a hundredth of the step, or a millionth.
+    pub fn refute(&mut self, level: f64) {
+        let slack = (0.01 * self.step).max(1e-6 * level.abs().max(1.0));
+        let costs = self.columns.iter().enumerate();
+        let terms: Vec<(usize, f64)> = costs.map(|(k, c)| (k, c.cost)).collect();
+        self.row(f64::NEG_INFINITY, level + slack, terms);
+        self.refuted = true;
+    }
+
+    /// Whether [`Program::refute`] was asked for.
+    #[must_use]
+    pub fn is_refuted(&self) -> bool {
+        self.refuted
+    }
+
+    /// Changes what a column costs.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such column.
+    pub fn set_cost(&mut self, column: usize, cost: f64) {
+        self.columns[column].cost = cost;
     }
 
     /// Number of factors that are not 0.
@@ -240,5 +281,21 @@ mod tests {
         program.promise_step(0.5);
         assert_eq!(program.rounded(0.3), 0.5);
         assert_eq!(program.rounded(0.500_001), 0.500_001);
+    }
+
+    #[test]
+    fn what_is_refuted_is_a_row() {
+        let mut program = Program::default();
+        let (a, b) = (program.binary(1.0), program.binary(2.0));
+        program.row(1.0, f64::INFINITY, [(a, 1.0), (b, 1.0)]);
+        assert_eq!(program.after(2.0), 2.0);
+        program.promise_step(1.0);
+        assert_eq!((program.after(2.0), program.after(2.5)), (3.0, 3.0));
+        let mut asked = program.clone();
+        asked.refute(1.0);
+        assert!(asked.is_refuted() && !program.is_refuted());
+        // `a` alone costs 1, `b` one more than that.
+        assert_eq!(asked.violation(&[1.0, 0.0]), 0.0);
+        assert!((asked.violation(&[0.0, 1.0]) - 0.99).abs() < 1e-12);
     }
 }

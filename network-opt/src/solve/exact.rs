@@ -1,15 +1,22 @@
 //! The exact solver: an integer program, solved to proof if time allows.
 
-use super::record::{Pool, Record};
+use super::pool::Pool;
+use super::record::Record;
 use super::{Ended, Limits, NetworkSolver, Outcome, Watch};
-use crate::design::{verify, Network, Problem};
+use crate::design::{Network, Problem};
 use crate::error::DesignError;
 use crate::formulate::{longest_ways, Cuts, Formulated, Formulation};
-use crate::mip::{MipProgress, MipReply, MipSolver, MipStatus};
+use crate::mip::MipSolver;
+
+mod climb;
+mod run;
+mod tighten;
+
+use run::{Run, Until};
 
 /// Solves problems as integer programs.
 ///
-/// Every network that it reports has passed [`verify`]; its cost is that of
+/// Every network that it reports has passed [`verify`](crate::design::verify); its cost is that of
 /// [`cost`](crate::design::cost), and the bound is one on that cost.
 ///
 /// # Examples
@@ -58,6 +65,13 @@ pub struct Exact<M> {
     ///
     /// Default value: `true`.
     pub symmetry: bool,
+    /// Edges to be decided from which on bounds are raised in steps, each of which
+    /// says that no network costs less than a little more than the bound before.
+    /// That gives better bounds in the same time where a proof takes too long, and
+    /// takes longer for a proof.
+    ///
+    /// Default value: 280.
+    pub climbs_from: usize,
 }
 
 impl<M> Exact<M> {
@@ -69,6 +83,7 @@ impl<M> Exact<M> {
             rounds: 12,
             cuts: Cuts::all(),
             symmetry: true,
+            climbs_from: 280,
         }
     }
 }
@@ -120,45 +135,28 @@ impl<M: MipSolver> Exact<M> {
             return Ok(record.outcome(Ended::Infeasible));
         }
         self.tighten(&mut formulated, limits, &mut record)?;
-        self.order(&mut formulated);
-        let left = record.left(limits);
-        let run = self.run(&formulated, &left, &mut record, Until::Proof)?;
+        let run = self.climb(&mut formulated, limits, &mut record)?;
         Ok(record.outcome(run.ended()))
     }
-}
 
-/// Rounds of cuts in a row that raise the bound by less than [`PROGRESS`] of it,
-/// after which there are no more. Where relaxations have many solutions of one cost
-/// a round or two may do nothing.
-const IDLE: usize = 3;
-const PROGRESS: f64 = 1e-4;
-
-/// When a run is over.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Until {
-    /// With the first valid network; bounds are of another problem.
-    First,
-    /// With a proof.
-    Proof,
-}
-
-/// How a run ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Run {
-    /// For this reason.
-    Ended(Ended),
-    /// With the optimum of its program, which does not price all.
-    Settled,
-}
-
-impl Run {
-    /// Without anything after it.
-    const fn ended(self) -> Ended {
-        match self {
-            Self::Ended(ended) => ended,
-            // The bound is as good as this program can make it.
-            Self::Settled => Ended::Deadline,
-        }
+    /// Refutes levels of the program that another solver has put into the pool,
+    /// lower ones than that one is at. Whether there was any is not told: bounds are
+    /// in the pool.
+    pub(super) fn solve_beside(
+        &self,
+        problem: &Problem,
+        limits: &Limits,
+        watch: &mut Watch<'_>,
+        pool: &Pool,
+    ) -> Result<(), DesignError> {
+        let Some(program) = pool.program() else {
+            return Ok(());
+        };
+        let mut record = Record::begin(problem, None, watch, Some(pool))?;
+        let mut formulated =
+            Formulated::with_cuts(problem, program.formulation, program.longest, self.cuts)?;
+        program.cuts.into_iter().for_each(|row| formulated.cut(row));
+        self.climb_below(&formulated, limits, &mut record)
     }
 }
 
@@ -186,19 +184,21 @@ impl<M: MipSolver> Exact<M> {
             return Ok(record.outcome(Ended::Infeasible));
         }
         self.tighten(&mut flow, limits, &mut record)?;
-        self.order(&mut flow);
-        let left = record.left(limits);
-        let run = self.run(&flow, &left, &mut record, Until::Proof)?;
+        let run = self.climb(&mut flow, limits, &mut record)?;
         let best = record.best.as_ref().map(|(_, cost)| cost.objective);
-        let (Run::Settled, Some(high)) = (run, best) else {
+        let (Run::Settled(low), Some(high)) = (run, best) else {
             return Ok(record.outcome(run.ended()));
         };
         let longest = (formulation == Formulation::SingleSink).then(|| longest_ways(problem, high));
         let mut travel = Formulated::with_cuts(problem, formulation, longest, self.cuts)?;
-        travel.limit_length(record.bound - 1e-6, high);
-        self.order(&mut travel);
-        let left = record.left(limits);
-        let run = self.run(&travel, &left, &mut record, Until::Proof)?;
+        let step = flow.program().step();
+        if step > 0.0 && high < low + step - 1e-6 {
+            // What is longer costs more, whatever it travels.
+            travel.settle_length(low);
+        } else {
+            travel.limit_length(low - 1e-6, high);
+        }
+        let run = self.climb(&mut travel, limits, &mut record)?;
         Ok(record.outcome(run.ended()))
     }
 
@@ -227,143 +227,6 @@ impl<M: MipSolver> Exact<M> {
     fn order(&self, formulated: &mut Formulated<'_>) {
         if self.symmetry {
             formulated.order_images();
-        }
-    }
-
-    /// Adds cuts that solutions of the relaxation violate, in rounds, and takes
-    /// its bound.
-    fn tighten(
-        &self,
-        formulated: &mut Formulated<'_>,
-        limits: &Limits,
-        record: &mut Record<'_, '_>,
-    ) -> Result<(), DesignError> {
-        // Half of the time at most: of rooms most of the bound is made here.
-        let budget = limits.deadline.map(|deadline| deadline / 2);
-        if !formulated.separates() {
-            return Ok(());
-        }
-        // Rounds without progress, and the last solution with what it costs.
-        let mut idle = 0;
-        let mut last: Option<(Vec<f64>, f64)> = None;
-        for _ in 0..self.rounds {
-            if record.cancelled || record.is_within(limits.gap) {
-                break;
-            }
-            let left = budget.map(|budget| budget.saturating_sub(record.began.elapsed()));
-            if left.is_some_and(|left| left.is_zero()) {
-                break;
-            }
-            let relaxed = formulated.program().relaxed();
-            let limits = Limits {
-                deadline: left,
-                ..limits.clone()
-            };
-            let found = self.solver.solve(&relaxed, None, &limits, &mut |_| {
-                let received = record.receive();
-                record.report(received).into()
-            })?;
-            let (MipStatus::Optimal, Some(values)) = (found.status, found.solution) else {
-                break;
-            };
-            record.raise(formulated.program().rounded(found.objective));
-            let rows = formulated.separate(&values, 0.02);
-            let before = last.as_ref().map_or(f64::NEG_INFINITY, |(_, cost)| *cost);
-            let moved = found.objective > before + PROGRESS * found.objective.abs();
-            idle = if moved { 0 } else { idle + 1 };
-            last = Some((values, found.objective));
-            if rows.is_empty() || idle == IDLE {
-                break;
-            }
-            rows.into_iter().for_each(|row| formulated.cut(row));
-        }
-        if let Some((values, _)) = last {
-            formulated.drop_idle_cuts(&values);
-        }
-        Ok(())
-    }
-
-    /// Solves a program; all networks found are offered to the record.
-    fn run(
-        &self,
-        formulated: &Formulated<'_>,
-        limits: &Limits,
-        record: &mut Record<'_, '_>,
-        until: Until,
-    ) -> Result<Run, DesignError> {
-        if record.cancelled {
-            return Ok(Run::Ended(Ended::Cancelled));
-        }
-        if until == Until::Proof && record.is_within(limits.gap) {
-            return Ok(Run::Ended(Ended::Proven));
-        }
-        if limits.deadline.is_some_and(|deadline| deadline.is_zero()) {
-            return Ok(Run::Ended(Ended::Deadline));
-        }
-        let start = record
-            .best
-            .as_ref()
-            .map(|(network, _)| formulated.solution(&formulated.image(network)));
-        let program = formulated.program();
-        let mut enough = false;
-        let found = self.solver.solve(
-            program,
-            start.as_deref(),
-            limits,
-            &mut |told: &MipProgress<'_>| {
-                let mut improved = false;
-                if let (Some(values), true) = (told.best, told.improved) {
-                    improved = record.offer(formulated.network(values));
-                }
-                if until == Until::Proof {
-                    record.raise(program.rounded(told.bound));
-                }
-                enough = match until {
-                    Until::First => record.best.is_some(),
-                    Until::Proof => record.is_within(limits.gap),
-                };
-                let received = record.receive();
-                if !record.report(improved || received) || enough {
-                    return MipReply::Stop;
-                }
-                match (received, &record.best) {
-                    (true, Some((network, _))) => {
-                        MipReply::Try(formulated.solution(&formulated.image(network)))
-                    }
-                    _ => MipReply::GoOn,
-                }
-            },
-        )?;
-        let mut invalid = None;
-        if let Some(values) = &found.solution {
-            let network = formulated.network(values);
-            invalid = verify(record.problem, &network).into_iter().next();
-            record.offer(network);
-        }
-        if until == Until::Proof && found.status != MipStatus::Infeasible {
-            record.raise(program.rounded(found.bound));
-        }
-        match found.status {
-            MipStatus::Infeasible if record.best.is_some() => {
-                // The program only knows of networks that are no worse.
-                record.close();
-                Ok(Run::Ended(Ended::Proven))
-            }
-            MipStatus::Infeasible => Ok(Run::Ended(Ended::Infeasible)),
-            _ if until == Until::Proof && record.is_within(limits.gap) => {
-                Ok(Run::Ended(Ended::Proven))
-            }
-            MipStatus::Optimal if record.best.is_none() => Err(DesignError::SolverFailed {
-                solver: self.solver.name(),
-                what: match invalid {
-                    Some(violation) => format!("its solution is not valid: {violation}"),
-                    None => "it has a proof, but no solution".to_owned(),
-                },
-            }),
-            // Of a program that does not price all: its bound stands.
-            MipStatus::Optimal => Ok(Run::Settled),
-            MipStatus::Cancelled if record.cancelled => Ok(Run::Ended(Ended::Cancelled)),
-            MipStatus::Deadline | MipStatus::Cancelled => Ok(Run::Ended(Ended::Deadline)),
         }
     }
 }

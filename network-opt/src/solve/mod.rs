@@ -9,6 +9,7 @@ use crate::error::DesignError;
 
 mod conflicts;
 mod exact;
+mod pool;
 mod race;
 mod record;
 mod stochastic;

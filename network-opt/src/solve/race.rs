@@ -1,34 +1,47 @@
-//! Both at once: windows for good networks, the whole program for the proof.
+//! All at once: search and windows for good networks, the whole program for the
+//! proof.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
+use std::time::{Duration, Instant};
 
-use super::record::Pool;
+use super::pool::Pool;
 use super::turns::in_turn;
-use super::{Ended, Exact, Limits, NetworkSolver, Outcome, Progress, Watch, Windows};
-use crate::design::{EdgeState, Network, Problem};
+use super::{Ended, Exact, Limits, NetworkSolver, Outcome, Progress, Search, Watch, Windows};
+use crate::design::{cost_of, EdgeState, Network, Problem};
 use crate::error::DesignError;
 use crate::mip::MipSolver;
 
-/// Runs [`Windows`] and [`Exact`] side by side, each with the best network of
-/// both; with one thread, one after the other.
+/// Runs [`Exact`] and, side by side with it, what finds better networks:
+/// [`Search`] and [`Windows`], a tenth of the time each, and then, where bounds are
+/// raised in steps ([`Exact::climbs_from`]), steps lower than those of the first.
+/// All know of the best network and the best bound. With one thread windows and
+/// programs come one after the other.
 ///
 /// What threads find in which order is not the same in every run; with one
 /// thread and without a deadline it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Race<M> {
     /// For proofs.
     pub exact: Exact<M>,
     /// For networks.
     pub windows: Windows<M>,
+    /// For networks, before windows; of two threads and more.
+    pub search: Search,
 }
+
+/// Part of the time that the search has, and at the same time windows after it.
+const SHARE: f64 = 0.1;
+/// What that is without a deadline.
+const UNLIMITED: Duration = Duration::from_secs(20);
 
 impl<M: Copy> Race<M> {
     /// With default options.
-    pub const fn new(solver: M) -> Self {
+    pub fn new(solver: M) -> Self {
         Self {
             exact: Exact::new(solver),
             windows: Windows::new(solver),
+            search: Search::default(),
         }
     }
 }
@@ -47,19 +60,24 @@ impl<M: MipSolver + Sync> NetworkSolver for Race<M> {
         }
         let pool = Pool::default();
         let over = AtomicBool::new(false);
-        let beside = Limits {
-            threads: 1,
-            ..limits.clone()
-        };
         let proof = Limits {
             threads: limits.threads - 1,
             ..limits.clone()
         };
         thread::scope(|scope| {
-            let windows = scope.spawn(|| {
-                let mut go_on = |_: &Progress<'_>| !over.load(Ordering::Relaxed);
-                self.windows
-                    .solve_in(problem, start, &beside, &mut go_on, Some(&pool))
+            let beside = scope.spawn(|| {
+                let beside = Beside {
+                    race: self,
+                    problem,
+                    limits: Limits {
+                        threads: 1,
+                        ..limits.clone()
+                    },
+                    began: Instant::now(),
+                    pool: &pool,
+                    over: &over,
+                };
+                beside.run(start)
             });
             let mut told = |progress: &Progress<'_>| {
                 let go_on = watch(progress);
@@ -72,31 +90,129 @@ impl<M: MipSolver + Sync> NetworkSolver for Race<M> {
                 .exact
                 .solve_in(problem, start, &proof, &mut told, Some(&pool));
             over.store(true, Ordering::Relaxed);
-            let windows = windows.join().unwrap_or_else(|_| {
+            let first = beside.join().unwrap_or_else(|_| {
                 Err(DesignError::SolverFailed {
                     solver: self.windows.solver.name(),
-                    what: "the thread of windows panicked".to_owned(),
+                    what: "the thread beside it panicked".to_owned(),
                 })
             })?;
             let mut outcome = exact?;
-            outcome.first_feasible = match (outcome.first_feasible, windows.first_feasible) {
+            outcome.first_feasible = match (outcome.first_feasible, first) {
                 (Some(a), Some(b)) => Some(a.min(b)),
                 (a, b) => a.or(b),
             };
-            outcome.bound = outcome.bound.max(windows.bound);
-            // A window that holds all edges is a proof as well.
-            if outcome.ended != Ended::Infeasible && windows.network.is_some() {
-                let better = windows.cost.objective < outcome.cost.objective - 1e-9;
-                if better || outcome.network.is_none() {
-                    (outcome.network, outcome.cost) = (windows.network, windows.cost);
-                }
-                if windows.ended == Ended::Proven {
+            if outcome.ended == Ended::Infeasible {
+                return Ok(outcome);
+            }
+            let known = match outcome.network {
+                Some(_) => outcome.cost.objective - 1e-9,
+                None => f64::INFINITY,
+            };
+            if let Some(network) = pool.better_than(known) {
+                outcome.cost = cost_of(problem, &network);
+                outcome.network = Some(network);
+            }
+            if outcome.network.is_some() {
+                let cost = outcome.cost.objective;
+                outcome.bound = outcome.bound.max(pool.bound()).min(cost);
+                // As the record of a solver has it.
+                if cost - outcome.bound <= limits.gap * cost.abs() + 1e-6 {
                     outcome.ended = Ended::Proven;
                 }
-                outcome.bound = outcome.bound.min(outcome.cost.objective);
             }
             Ok(outcome)
         })
+    }
+}
+
+/// What runs beside the proof.
+struct Beside<'r, M> {
+    race: &'r Race<M>,
+    problem: &'r Problem,
+    limits: Limits,
+    began: Instant,
+    pool: &'r Pool,
+    over: &'r AtomicBool,
+}
+
+impl<M: MipSolver + Sync> Beside<'_, M> {
+    /// Says when the first network was there.
+    fn run(&self, start: Option<&Network>) -> Result<Option<Duration>, DesignError> {
+        let share = (self.limits.deadline).map_or(UNLIMITED, |time| time.mul_f64(SHARE));
+        let mut first = self.search(start, share)?;
+        let mut until = |_: &Progress<'_>| {
+            !self.is_over() && !(self.spent() >= 2 * share && self.pool.has_program())
+        };
+        self.windows(&mut first, &mut until)?;
+        let mut until = |_: &Progress<'_>| !self.is_over();
+        if !self.is_over() {
+            let exact = &self.race.exact;
+            exact.solve_beside(self.problem, &self.left(), &mut until, self.pool)?;
+        }
+        if !self.is_over() {
+            self.windows(&mut first, &mut until)?;
+        }
+        Ok(first)
+    }
+
+    fn search(
+        &self,
+        start: Option<&Network>,
+        time: Duration,
+    ) -> Result<Option<Duration>, DesignError> {
+        let mut go_on = |progress: &Progress<'_>| {
+            if let (Some((network, cost)), true) = (progress.best, progress.improved) {
+                self.pool.offer(network, cost.objective);
+            }
+            self.pool.raise(progress.bound);
+            !self.is_over() && progress.elapsed < time
+        };
+        // Not the way of a search that came before.
+        let limits = Limits {
+            seed: self.limits.seed ^ 0x5EA2_C4B5,
+            ..self.limits.clone()
+        };
+        let known = self.pool.better_than(f64::INFINITY);
+        let start = known.as_ref().or(start);
+        let found = (self.race.search).solve(self.problem, start, &limits, &mut go_on)?;
+        if let Some(network) = &found.network {
+            self.pool.offer(network, found.cost.objective);
+        }
+        Ok(found.first_feasible)
+    }
+
+    fn windows(
+        &self,
+        first: &mut Option<Duration>,
+        until: &mut Watch<'_>,
+    ) -> Result<(), DesignError> {
+        let spent = self.spent();
+        let best = self.pool.better_than(f64::INFINITY);
+        let found = self.race.windows.solve_in(
+            self.problem,
+            best.as_ref(),
+            &self.left(),
+            until,
+            Some(self.pool),
+        )?;
+        *first = first.or(found.first_feasible.map(|time| time + spent));
+        Ok(())
+    }
+
+    fn is_over(&self) -> bool {
+        self.over.load(Ordering::Relaxed)
+    }
+
+    fn spent(&self) -> Duration {
+        self.began.elapsed()
+    }
+
+    fn left(&self) -> Limits {
+        let deadline = self.limits.deadline;
+        Limits {
+            deadline: deadline.map(|time| time.saturating_sub(self.spent())),
+            ..self.limits.clone()
+        }
     }
 }
 

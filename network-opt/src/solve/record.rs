@@ -1,8 +1,8 @@
 //! The best network so far, and who is told of it.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use super::pool::Pool;
 use super::{Ended, Limits, Outcome, Progress, Watch};
 use crate::design::{cost_of, verify, Cost, Network, Problem};
 use crate::error::DesignError;
@@ -18,20 +18,7 @@ pub(super) struct Record<'p, 'w> {
     pub(super) cancelled: bool,
     first: Option<Duration>,
     watch: &'w mut Watch<'w>,
-    pool: Option<&'w Pool>,
-}
-
-/// The best network of several solvers that run side by side.
-#[derive(Debug, Default)]
-pub(super) struct Pool {
-    best: Mutex<Option<(Network, f64)>>,
-}
-
-impl Pool {
-    fn best(&self) -> MutexGuard<'_, Option<(Network, f64)>> {
-        // Nothing panics while it holds the lock.
-        self.best.lock().unwrap_or_else(PoisonError::into_inner)
-    }
+    pub(super) pool: Option<&'w Pool>,
 }
 
 impl<'p, 'w> Record<'p, 'w> {
@@ -65,18 +52,19 @@ impl<'p, 'w> Record<'p, 'w> {
         Ok(record)
     }
 
-    /// Takes the network of another solver if it is better; says whether it is.
+    /// Takes the bound of other solvers, and their network if it is better; says
+    /// whether that is.
     pub(super) fn receive(&mut self) -> bool {
         let Some(pool) = self.pool else { return false };
+        self.bound = self.bound.max(pool.bound());
         let known = self
             .best
             .as_ref()
             .map_or(f64::INFINITY, |(_, cost)| cost.objective);
-        let better = match pool.best().as_ref() {
-            Some((network, cost)) if *cost < known - 1e-9 => network.clone(),
-            _ => return false,
-        };
-        self.offer(better)
+        match pool.better_than(known - 1e-9) {
+            Some(network) => self.offer(network),
+            None => false,
+        }
     }
 
     /// Keeps a network if it is valid and better; says whether it is.
@@ -92,11 +80,7 @@ impl<'p, 'w> Record<'p, 'w> {
         }
         self.first.get_or_insert(self.began.elapsed());
         if let Some(pool) = self.pool {
-            let mut shared = pool.best();
-            let known = shared.as_ref().map_or(f64::INFINITY, |(_, cost)| *cost);
-            if found.objective < known {
-                *shared = Some((network.clone(), found.objective));
-            }
+            pool.offer(&network, found.objective);
         }
         self.best = Some((network, found));
         true
@@ -106,6 +90,9 @@ impl<'p, 'w> Record<'p, 'w> {
     pub(super) fn raise(&mut self, bound: f64) {
         if bound > self.bound && bound.is_finite() {
             self.bound = bound;
+            if let Some(pool) = self.pool {
+                pool.raise(bound);
+            }
         }
     }
 

@@ -3,7 +3,8 @@
 
 use std::time::Duration;
 
-use super::record::{Pool, Record};
+use super::pool::Pool;
+use super::record::Record;
 use super::{Ended, Exact, Limits, NetworkSolver, Outcome, Watch};
 use crate::design::{Network, Problem};
 use crate::error::DesignError;
