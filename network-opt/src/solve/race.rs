@@ -141,7 +141,8 @@ impl<M: MipSolver + Sync> Beside<'_, M> {
         let share = (self.limits.deadline).map_or(UNLIMITED, |time| time.mul_f64(SHARE));
         let mut first = self.search(start, share)?;
         let mut until = |_: &Progress<'_>| {
-            !self.is_over() && !(self.spent() >= 2 * share && self.pool.has_program())
+            let climbs = self.spent() >= 2 * share && self.pool.has_program();
+            !self.is_over() && !climbs
         };
         self.windows(&mut first, &mut until)?;
         let mut until = |_: &Progress<'_>| !self.is_over();
@@ -246,13 +247,16 @@ const LARGE: usize = 280;
 
 #[cfg(test)]
 mod tests {
+    use super::super::pool::Tightened;
     use super::*;
+    use crate::formulate::Formulation;
     use crate::mip::Microlp;
 
-    #[test]
-    fn side_by_side_and_in_turn_are_as_good() {
-        // A square with a diagonal; vertex 2 has to be reached and left.
-        let problem = Problem {
+    /// A square with a diagonal; vertex 2 has to be reached and left. Best is out by
+    /// the diagonal and back by two edges: 3.5 long, and the edge at vertex 2 starts
+    /// from a way of 1.
+    fn square() -> Problem {
+        Problem {
             vertices: 4,
             ends: vec![[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]],
             lengths: vec![1.0, 1.0, 1.0, 1.0, 1.5],
@@ -262,21 +266,52 @@ mod tests {
             length_weight: 1.0,
             travel_weight: 1.0,
             ..Problem::default()
-        };
-        for threads in [1, 2] {
+        }
+    }
+
+    #[test]
+    fn side_by_side_and_in_turn_are_as_good() {
+        let problem = square();
+        for (threads, climbs_from) in [(1, 280), (2, 280), (2, 0)] {
             let limits = Limits {
                 threads,
                 deadline: None,
                 ..Limits::default()
             };
-            let found = Race::new(Microlp)
+            let mut race = Race::new(Microlp);
+            race.exact.climbs_from = climbs_from;
+            let found = race
                 .solve(&problem, None, &limits, &mut |_| true)
                 .expect("solved");
             assert_eq!(found.ended, Ended::Proven);
-            // Out by the diagonal, back by two edges: 3.5 long, and the edge at
-            // vertex 2 starts from a way of 1.
             assert_eq!(found.cost.objective, 4.5);
             assert_eq!(found.bound, 4.5);
         }
+    }
+
+    #[test]
+    fn steps_beside_a_proof_end_at_the_optimum() {
+        let problem = square();
+        let pool = Pool::default();
+        let all = Network {
+            active: vec![true; 5],
+            ..Network::default()
+        };
+        pool.offer(&all, cost_of(&problem, &all).objective);
+        let exact = Exact::new(Microlp);
+        let limits = Limits::default();
+        let beside = || exact.solve_beside(&problem, &limits, &mut |_| true, &pool);
+        // Nothing to do without a program.
+        beside().expect("no failure");
+        assert_eq!(pool.bound(), 0.0);
+        pool.publish(Tightened {
+            formulation: Formulation::TravelFlow,
+            longest: None,
+            cuts: vec![],
+        });
+        beside().expect("no failure");
+        assert!((pool.bound() - 4.5).abs() < 1e-6, "{}", pool.bound());
+        let best = pool.better_than(5.0).expect("better than all edges");
+        assert_eq!(cost_of(&problem, &best).objective, 4.5);
     }
 }

@@ -28,7 +28,7 @@ use crate::mip::MipSolver;
 
 /// Part of what is between the bound and the best network that the first step has,
 /// of a solver by itself and of one that works below another.
-const FIRST: [f64; 2] = [0.4, 0.1];
+const FIRST: [f64; 2] = [0.25, 0.1];
 
 /// How much larger or smaller the next step is, for the part of the time left that
 /// the last one took. A step takes long to set up, whatever it is, and twice as
