@@ -47,7 +47,9 @@ fn in_steps(problem: &Problem, solver: impl MipSolver) -> Result<(), TestCaseErr
         bounds.iter().all(|&bound| bound <= least + CLOSE),
         "{bounds:?} for {least}"
     );
-    prop_assert!(bounds.is_sorted(), "{bounds:?}");
+    // But for rounding.
+    let falls = |pair: &[f64]| pair[1] < pair[0] - CLOSE;
+    prop_assert!(!bounds.windows(2).any(falls), "{bounds:?}");
     Ok(())
 }
 

@@ -141,7 +141,7 @@ impl Drop for Done<'_> {
 }
 
 /// Solves the program; that there is no solution is believed only if HiGHS says
-/// so without its presolve as well.
+/// so without its presolve as well, or if that was expected.
 fn run(
     program: &Program,
     start: Option<&[f64]>,
