@@ -16,7 +16,7 @@ impl Formulated<'_> {
     /// program is of travel alone from then on, in its own units, which are easier
     /// to tell apart than if they were small parts of the whole. See
     /// [`Formulated::price`].
-    pub fn settle_length(&mut self, cost: f64) {
+    pub(crate) fn settle_length(&mut self, cost: f64) {
         let terms = self.length_terms();
         for &(column, _) in &terms {
             self.program.set_cost(column, 0.0);

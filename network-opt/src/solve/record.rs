@@ -111,6 +111,12 @@ impl<'p, 'w> Record<'p, 'w> {
         })
     }
 
+    /// Whether the best costs less than networks may, so that some solver was wrong.
+    pub(super) fn is_contradicted(&self) -> bool {
+        let slack = 1e-5 * self.bound.abs().max(1.0);
+        (self.best.as_ref()).is_some_and(|(_, cost)| cost.objective < self.bound - slack)
+    }
+
     /// Tells the watch; says whether to go on.
     pub(super) fn report(&mut self, improved: bool) -> bool {
         if !self.cancelled {

@@ -55,9 +55,12 @@ impl<M: MipSolver> Exact<M> {
                 return Ok(run);
             }
         }
-        // Steps are of few branches each, and long rows only slow them down.
-        self.order(formulated);
         let left = record.left(limits);
+        let no_time = left.deadline.is_some_and(|time| time.is_zero());
+        if !record.cancelled && !no_time {
+            // Steps are of few branches each, and long rows only slow them down.
+            self.order(formulated);
+        }
         self.run(formulated, &left, record, Until::Proof)
     }
 
@@ -172,6 +175,9 @@ fn factor(took: Duration, left: Option<Duration>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::design::{EdgeState, Network};
+    use crate::mip::{Microlp, MipOutcome, MipStatus, MipWatch, Program};
+    use crate::solve::NetworkSolver;
 
     #[test]
     fn levels_are_on_steps_between_bound_and_best() {
@@ -209,5 +215,61 @@ mod tests {
         assert_eq!(factor(seconds(30), Some(seconds(100))), 1.0);
         assert_eq!(factor(seconds(90), Some(seconds(10))), 0.5);
         assert_eq!(factor(seconds(90), None), 2.5);
+    }
+
+    /// Says of every level that no network costs so little.
+    struct Denier;
+
+    impl MipSolver for Denier {
+        fn name(&self) -> &'static str {
+            "denier"
+        }
+
+        fn solve(
+            &self,
+            program: &Program,
+            start: Option<&[f64]>,
+            limits: &Limits,
+            watch: &mut MipWatch<'_>,
+        ) -> Result<MipOutcome, DesignError> {
+            if program.is_refuted() {
+                return Ok(MipOutcome {
+                    status: MipStatus::Infeasible,
+                    solution: None,
+                    objective: f64::INFINITY,
+                    bound: f64::INFINITY,
+                });
+            }
+            Microlp.solve(program, start, limits, watch)
+        }
+    }
+
+    #[test]
+    fn a_network_under_the_bound_is_an_error() {
+        // A square with a diagonal, all of it active: 7.5; 4.5 is enough.
+        let problem = Problem {
+            vertices: 4,
+            ends: vec![[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]],
+            lengths: vec![1.0, 1.0, 1.0, 1.0, 1.5],
+            states: vec![EdgeState::Open; 5],
+            sinks: vec![true, false, false, false],
+            required_vertices: vec![2],
+            length_weight: 1.0,
+            travel_weight: 1.0,
+            ..Problem::default()
+        };
+        let all = Network {
+            active: vec![true; 5],
+            ..Network::default()
+        };
+        let exact = Exact {
+            climbs_from: 0,
+            ..Exact::new(Denier)
+        };
+        let found = exact.solve(&problem, Some(&all), &Limits::default(), &mut |_| true);
+        assert!(
+            matches!(found, Err(DesignError::SolverFailed { .. })),
+            "{found:?}"
+        );
     }
 }

@@ -115,8 +115,19 @@ impl<M: MipSolver> Exact<M> {
             invalid = verify(record.problem, &network).into_iter().next();
             record.offer(network);
         }
-        if found.status != MipStatus::Infeasible {
-            record.raise(bound(found.bound));
+        match (found.status, until) {
+            (MipStatus::Infeasible, _) => {}
+            // All that the row for a level leaves out costs more than what was found.
+            (MipStatus::Optimal, Until::Refuted(_)) => {
+                record.raise(formulated.price(program.rounded(found.bound)));
+            }
+            _ => record.raise(bound(found.bound)),
+        }
+        if record.is_contradicted() {
+            return Err(DesignError::SolverFailed {
+                solver: self.solver.name(),
+                what: "a valid network costs less than what it said was the least".to_owned(),
+            });
         }
         match (found.status, until) {
             (MipStatus::Infeasible, Until::Refuted(_)) => {
@@ -140,7 +151,9 @@ impl<M: MipSolver> Exact<M> {
                 },
             }),
             // Of a program that does not price all: its bound stands.
-            (MipStatus::Optimal, _) => Ok(Run::Settled(bound(found.bound))),
+            (MipStatus::Optimal, _) => {
+                Ok(Run::Settled(formulated.price(program.rounded(found.bound))))
+            }
             // By another solver.
             (_, Until::Refuted(_)) if record.bound >= goal => Ok(Run::Refuted),
             (MipStatus::Cancelled, _) if record.cancelled => Ok(Run::Ended(Ended::Cancelled)),
