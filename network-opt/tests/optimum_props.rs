@@ -12,24 +12,54 @@ use common::recipe::{config, pattern, recipe, Recipe};
 use network_opt::design::{cost, cost_of, EdgeState, Network, PatternKind, Problem};
 use network_opt::formulate::Cuts;
 use network_opt::mip::{Microlp, MipSolver};
-use network_opt::solve::{Ended, Exact, NetworkSolver};
+use network_opt::solve::{Ended, Exact, Limits, NetworkSolver, Race};
 use proptest::prelude::*;
 use proptest::sample::subsequence;
 
 /// Solves from the worst valid network on, in steps whatever the size, and looks at
 /// every bound and every network on the way.
 fn in_steps(problem: &Problem, solver: impl MipSolver) -> Result<(), TestCaseError> {
-    let valid = all_valid(problem);
-    let price = |network: &Network| cost_of(problem, network).objective;
-    let worst = valid.iter().max_by(|a, b| price(a).total_cmp(&price(b)));
-    let least = valid.iter().map(price).min_by(f64::total_cmp);
     let exact = Exact {
         climbs_from: 0,
         ..Exact::new(solver)
     };
+    ends_at_the_optimum(problem, &exact, &forever(), true)
+}
+
+/// Solves with two threads, in steps and without, from the worst valid network on
+/// and from none.
+fn side_by_side(
+    problem: &Problem,
+    solver: impl MipSolver + Copy + Sync,
+) -> Result<(), TestCaseError> {
+    let limits = Limits {
+        threads: 2,
+        ..forever()
+    };
+    for (climbs_from, starts) in [(0, true), (0, false), (1000, true)] {
+        let mut race = Race::new(solver);
+        race.exact.climbs_from = climbs_from;
+        // The second thread has something else to do.
+        race.search.moves = Some(20);
+        ends_at_the_optimum(problem, &race, &limits, starts)?;
+    }
+    Ok(())
+}
+
+fn ends_at_the_optimum(
+    problem: &Problem,
+    solver: &impl NetworkSolver,
+    limits: &Limits,
+    starts: bool,
+) -> Result<(), TestCaseError> {
+    let valid = all_valid(problem);
+    let price = |network: &Network| cost_of(problem, network).objective;
+    let worst = valid.iter().max_by(|a, b| price(a).total_cmp(&price(b)));
+    let least = valid.iter().map(price).min_by(f64::total_cmp);
     let mut bounds = vec![];
-    let found = exact
-        .solve(problem, worst, &forever(), &mut |progress| {
+    let start = worst.filter(|_| starts);
+    let found = solver
+        .solve(problem, start, limits, &mut |progress| {
             bounds.push(progress.bound);
             true
         })
@@ -82,6 +112,17 @@ proptest! {
         let problem = recipe.problem();
         prop_assume!(open_edges(&problem) <= 12);
         in_steps(&problem, network_opt::mip::Highs)?;
+    }
+
+    #[test]
+    fn side_by_side_highs_leads_to_the_optimum(recipe in recipe(), breaks_ties: bool) {
+        let mut recipe = recipe;
+        if breaks_ties {
+            recipe.weights.1 = 2;
+        }
+        let problem = recipe.problem();
+        prop_assume!(open_edges(&problem) <= 12);
+        side_by_side(&problem, network_opt::mip::Highs)?;
     }
 }
 
@@ -161,6 +202,19 @@ proptest! {
         let problem = recipe.problem();
         prop_assume!(open_edges(&problem) <= 10);
         in_steps(&problem, Microlp)?;
+    }
+
+    /// The same of what runs beside it: bounds of travel that another thread proves
+    /// before the length, steps, windows.
+    #[test]
+    fn side_by_side_leads_to_the_optimum(recipe in recipe(), breaks_ties: bool) {
+        let mut recipe = recipe;
+        if breaks_ties {
+            recipe.weights.1 = 2;
+        }
+        let problem = recipe.problem();
+        prop_assume!(open_edges(&problem) <= 10);
+        side_by_side(&problem, Microlp)?;
     }
 }
 

@@ -27,6 +27,14 @@ pub struct Cost {
     pub wishes: f64,
 }
 
+impl Cost {
+    /// What of it is not travel: length, patterns, routes and wishes, by their
+    /// weights.
+    pub(crate) fn without_travel(&self, problem: &Problem) -> f64 {
+        self.objective - problem.travel_weight * self.travel
+    }
+}
+
 /// What a network costs, valid or not. Patterns that are forbidden cost
 /// nothing here, nor do routes that have to be there. Where sinks are to be
 /// placed, see [`cost_of`](super::cost_of).

@@ -43,6 +43,7 @@ use draft::{Draft, Fill, Known, Term};
 use room_balls::RoomBalls;
 
 pub use prepare::{prepare, Fate};
+pub(crate) use price::step;
 pub use single_sink::longest_ways;
 
 /// Which integer program a problem becomes.
@@ -173,8 +174,8 @@ pub struct Formulated<'p> {
     /// wishes.
     plain: [usize; 2],
     /// What a network costs beside what the program prices, and how much one of
-    /// the program's units is.
-    priced: [f64; 2],
+    /// the program's units is; none if it prices all in units of the problem.
+    priced: Option<[f64; 2]>,
 }
 
 /// Families with columns of their own.
@@ -342,7 +343,7 @@ impl<'p> Formulated<'p> {
             contradicts: draft.contradicts,
             longest,
             plain: [plain_columns, room_columns],
-            priced: [0.0, 1.0],
+            priced: None,
         })
     }
 

@@ -16,43 +16,50 @@ impl Formulated<'_> {
     /// program is of travel alone from then on, in its own units, which are easier
     /// to tell apart than if they were small parts of the whole. See
     /// [`Formulated::price`].
+    ///
+    /// Once, before there are cuts, and where travel costs something.
     pub(crate) fn settle_length(&mut self, cost: f64) {
+        let unit = self.problem.travel_weight;
+        debug_assert!(unit > 0.0 && self.priced.is_none() && self.added().is_empty());
         let terms = self.length_terms();
         for &(column, _) in &terms {
             self.program.set_cost(column, 0.0);
         }
         let slack = 1e-6 * cost.abs().max(1.0);
         self.program.row(cost - slack, cost + slack, terms);
-        let unit = self.problem.travel_weight;
-        if unit > 0.0 {
-            for column in 0..self.program.columns().len() {
-                let cost = self.program.columns()[column].cost;
-                self.program.set_cost(column, cost / unit);
-            }
-            let only_travel = Problem {
-                length_weight: 0.0,
-                travel_weight: 1.0,
-                patterns: Vec::new(),
-                routes: Vec::new(),
-                rooms: None,
-                ..self.problem.clone()
-            };
-            self.program
-                .promise_step(step(&only_travel, self.formulation));
-            self.priced = [cost, unit];
+        self.own_rows = self.program.rows().len();
+        for column in 0..self.program.columns().len() {
+            let cost = self.program.columns()[column].cost;
+            self.program.set_cost(column, cost / unit);
         }
+        let only_travel = Problem {
+            length_weight: 0.0,
+            travel_weight: 1.0,
+            patterns: Vec::new(),
+            routes: Vec::new(),
+            rooms: None,
+            ..self.problem.clone()
+        };
+        self.program
+            .promise_step(step(&only_travel, self.formulation));
+        self.priced = Some([cost, unit]);
+    }
+
+    /// What length, patterns, routes and wishes cost, if that is settled.
+    pub(crate) fn settled(&self) -> Option<f64> {
+        self.priced.map(|[cost, _]| cost)
     }
 
     /// What networks cost whose solutions cost so much by the program.
     #[must_use]
     pub fn price(&self, cost: f64) -> f64 {
-        let [settled, unit] = self.priced;
+        let [settled, unit] = self.priced.unwrap_or([0.0, 1.0]);
         settled + unit * cost
     }
 
     /// What solutions cost by the program whose networks cost so much.
     pub(crate) fn unpriced(&self, cost: f64) -> f64 {
-        let [settled, unit] = self.priced;
+        let [settled, unit] = self.priced.unwrap_or([0.0, 1.0]);
         (cost - settled) / unit
     }
 
@@ -69,7 +76,7 @@ impl Formulated<'_> {
 
 /// What the cost of every network is a multiple of, to a billionth; 0 if that
 /// is too little to be of use.
-pub(super) fn step(problem: &Problem, formulation: Formulation) -> f64 {
+pub(crate) fn step(problem: &Problem, formulation: Formulation) -> f64 {
     let fold = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, common);
     let length = fold(&mut problem.lengths.iter().copied());
     let over = fold(&mut (0..problem.edges()).map(|e| problem.travel_cost(e)));

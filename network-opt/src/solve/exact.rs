@@ -10,9 +10,10 @@ use crate::mip::MipSolver;
 
 mod climb;
 mod run;
+mod ties;
 mod tighten;
 
-use run::{Run, Until};
+use run::Until;
 
 /// Solves problems as integer programs.
 ///
@@ -115,7 +116,7 @@ impl<M: MipSolver> Exact<M> {
             Formulation::Recommended => Formulation::for_problem(problem),
             other => other,
         };
-        if self.formulation == Formulation::Recommended && breaks_ties(problem) {
+        if self.breaks_ties(problem) {
             return self.in_two_steps(problem, formulation, limits, record);
         }
         let mut longest = None;
@@ -140,7 +141,7 @@ impl<M: MipSolver> Exact<M> {
     }
 
     /// Refutes levels of the program that another solver has put into the pool,
-    /// lower ones than that one is at. Whether there was any is not told: bounds are
+    /// others than that one is at. Whether there was any is not told: bounds are
     /// in the pool.
     pub(super) fn solve_beside(
         &self,
@@ -153,55 +154,12 @@ impl<M: MipSolver> Exact<M> {
             return Ok(());
         };
         let mut record = Record::begin(problem, None, watch, Some(pool))?;
-        let mut formulated =
-            Formulated::with_cuts(problem, program.formulation, program.longest, self.cuts)?;
-        program.cuts.into_iter().for_each(|row| formulated.cut(row));
+        let formulated = program.write(problem, self.cuts)?;
         self.climb_below(&formulated, limits, &mut record)
     }
 }
 
-/// Whether travel is worth so little that length has to be settled first.
-fn breaks_ties(problem: &Problem) -> bool {
-    problem.travel_weight > 0.0 && problem.travel_weight <= problem.length_weight / 100.0
-}
-
 impl<M: MipSolver> Exact<M> {
-    /// First the least length, without travel, by the program that is best for
-    /// that; then travel among networks that can still be better.
-    ///
-    /// Every network costs in length and patterns at least what the first
-    /// program's bound says, and one that is better than the best at most what
-    /// that costs in all.
-    fn in_two_steps(
-        &self,
-        problem: &Problem,
-        formulation: Formulation,
-        limits: &Limits,
-        mut record: Record<'_, '_>,
-    ) -> Result<Outcome, DesignError> {
-        let mut flow = Formulated::with_cuts(problem, Formulation::Flow, None, self.cuts)?;
-        if flow.contradicts() {
-            return Ok(record.outcome(Ended::Infeasible));
-        }
-        self.tighten(&mut flow, limits, &mut record)?;
-        let run = self.climb(&mut flow, limits, &mut record)?;
-        let best = record.best.as_ref().map(|(_, cost)| cost.objective);
-        let (Run::Settled(low), Some(high)) = (run, best) else {
-            return Ok(record.outcome(run.ended()));
-        };
-        let longest = (formulation == Formulation::SingleSink).then(|| longest_ways(problem, high));
-        let mut travel = Formulated::with_cuts(problem, formulation, longest, self.cuts)?;
-        let step = flow.program().step();
-        if step > 0.0 && high < low + step - 1e-6 {
-            // What is longer costs more, whatever it travels.
-            travel.settle_length(low);
-        } else {
-            travel.limit_length(low - 1e-6, high);
-        }
-        let run = self.climb(&mut travel, limits, &mut record)?;
-        Ok(record.outcome(run.ended()))
-    }
-
     /// Looks for any network: the shortest, whatever it travels, is the easiest
     /// to look for.
     pub(super) fn first(

@@ -2,11 +2,12 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use crate::design::Network;
-use crate::formulate::Formulation;
+use crate::design::{Network, Problem};
+use crate::error::DesignError;
+use crate::formulate::{Cuts, Formulated, Formulation};
 use crate::mip::Row;
 
-/// What solvers share: the best network, the best bound, a program, and what is
+/// What solvers share: the best network, the best bound, programs, and what is
 /// being refuted.
 #[derive(Debug, Default)]
 pub(super) struct Pool {
@@ -17,8 +18,19 @@ pub(super) struct Pool {
 struct Shared {
     best: Option<(Network, f64)>,
     bound: f64,
-    program: Option<Tightened>,
+    /// The latest program, and how many there were.
+    program: (Option<Tightened>, usize),
     claims: Vec<f64>,
+    /// No network costs less without travel.
+    least: f64,
+    supposed: Option<Supposed>,
+}
+
+/// No network that costs `least` at least without travel costs less than `bound`.
+#[derive(Clone, Copy, Debug)]
+struct Supposed {
+    least: f64,
+    bound: f64,
 }
 
 /// A program with cuts, as another solver can write it down too.
@@ -26,7 +38,33 @@ struct Shared {
 pub(super) struct Tightened {
     pub(super) formulation: Formulation,
     pub(super) longest: Option<Vec<f64>>,
+    pub(super) settled: Option<f64>,
     pub(super) cuts: Vec<Row>,
+}
+
+impl Tightened {
+    pub(super) fn of(formulated: &Formulated<'_>) -> Self {
+        Self {
+            formulation: formulated.formulation(),
+            longest: formulated.longest().map(<[f64]>::to_vec),
+            settled: formulated.settled(),
+            cuts: formulated.added().to_vec(),
+        }
+    }
+
+    /// The program, with the same families of cuts.
+    pub(super) fn write(
+        self,
+        problem: &Problem,
+        cuts: Cuts,
+    ) -> Result<Formulated<'_>, DesignError> {
+        let mut formulated = Formulated::with_cuts(problem, self.formulation, self.longest, cuts)?;
+        if let Some(cost) = self.settled {
+            formulated.settle_length(cost);
+        }
+        self.cuts.into_iter().for_each(|row| formulated.cut(row));
+        Ok(formulated)
+    }
 }
 
 /// That a level is being refuted, for as long as this lives.
@@ -70,19 +108,39 @@ impl Pool {
         }
     }
 
-    /// Hands a program to others.
+    /// No network costs less without travel, in length, patterns, routes and wishes.
+    pub(super) fn settle(&self, least: f64) {
+        let mut shared = self.shared();
+        shared.least = shared.least.max(least);
+        shared.conclude();
+    }
+
+    /// No network that costs `least` at least without travel costs less than
+    /// `bound`; it becomes a bound on all as soon as that is what they cost.
+    pub(super) fn suppose(&self, least: f64, bound: f64) {
+        let mut shared = self.shared();
+        let known = shared.supposed.filter(|known| known.least == least);
+        if known.is_none_or(|known| bound > known.bound) {
+            shared.supposed = Some(Supposed { least, bound });
+            shared.conclude();
+        }
+    }
+
+    /// Hands a program to others, in place of the one before it.
     pub(super) fn publish(&self, program: Tightened) {
-        self.shared().program = Some(program);
+        let (latest, count) = &mut self.shared().program;
+        *latest = Some(program);
+        *count += 1;
     }
 
-    /// Whether there is a program.
-    pub(super) fn has_program(&self) -> bool {
-        self.shared().program.is_some()
+    /// How many programs there were.
+    pub(super) fn programs(&self) -> usize {
+        self.shared().program.1
     }
 
-    /// The program, if there is one.
+    /// The latest program, if there is one.
     pub(super) fn program(&self) -> Option<Tightened> {
-        self.shared().program.clone()
+        self.shared().program.0.clone()
     }
 
     /// Says that a level is being refuted; the first of those that no other solver
@@ -96,6 +154,18 @@ impl Pool {
         let level = { levels }.find(|&level| !taken(level))?;
         shared.claims.push(level);
         Some(Claim { pool: self, level })
+    }
+}
+
+impl Shared {
+    fn conclude(&mut self) {
+        if let Some(Supposed { least, bound }) = self.supposed {
+            // Bounds of solvers are within this of what networks cost.
+            let holds = self.least >= least - 1e-6 * least.abs().max(1.0);
+            if holds && bound.is_finite() {
+                self.bound = self.bound.max(bound);
+            }
+        }
     }
 }
 
@@ -147,5 +217,23 @@ mod tests {
         pool.raise(f64::INFINITY);
         pool.raise(0.5);
         assert_eq!(pool.bound(), 1.0);
+    }
+
+    #[test]
+    fn what_is_supposed_counts_when_it_is_known() {
+        let pool = Pool::default();
+        pool.suppose(19.0, 19.5);
+        assert_eq!(pool.bound(), 0.0);
+        pool.settle(18.0);
+        assert_eq!(pool.bound(), 0.0);
+        pool.settle(19.0 - 1e-9);
+        assert_eq!(pool.bound(), 19.5);
+        // From then on at once, and never less.
+        pool.suppose(19.0, 19.75);
+        pool.suppose(19.0, 19.25);
+        assert_eq!(pool.bound(), 19.75);
+        // Of networks that cost more there may be none.
+        pool.suppose(20.0, 20.5);
+        assert_eq!(pool.bound(), 19.75);
     }
 }

@@ -6,7 +6,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::pool::Pool;
-use super::turns::in_turn;
+use super::record::contradicts;
+use super::turns::{in_turn, Turn};
 use super::{Ended, Exact, Limits, NetworkSolver, Outcome, Progress, Search, Watch, Windows};
 use crate::design::{cost_of, EdgeState, Network, Problem};
 use crate::error::DesignError;
@@ -14,9 +15,11 @@ use crate::mip::MipSolver;
 
 /// Runs [`Exact`] and, side by side with it, what finds better networks:
 /// [`Search`] and [`Windows`], a tenth of the time each, and then, where bounds are
-/// raised in steps ([`Exact::climbs_from`]), steps lower than those of the first.
-/// All know of the best network and the best bound. With one thread windows and
-/// programs come one after the other.
+/// raised in steps ([`Exact::climbs_from`]), other steps than those of the first.
+/// Where travel only decides between networks of one length, and there are no steps,
+/// it looks into travel at once, while the first thread proves the length. Programs and
+/// windows know of the best network and the best bound. With one thread windows
+/// and programs come one after the other.
 ///
 /// What threads find in which order is not the same in every run; with one
 /// thread and without a deadline it is.
@@ -34,6 +37,11 @@ pub struct Race<M> {
 const SHARE: f64 = 0.1;
 /// What that is without a deadline.
 const UNLIMITED: Duration = Duration::from_secs(20);
+/// Between two looks for something to do.
+const PACE: Duration = Duration::from_millis(20);
+/// Make other seeds of those of the first thread.
+const SEARCH: u64 = 0x5EA2_C4B5;
+const TRAVEL: u64 = 0x74A7_E115;
 
 impl<M: Copy> Race<M> {
     /// With default options.
@@ -114,7 +122,15 @@ impl<M: MipSolver + Sync> NetworkSolver for Race<M> {
             }
             if outcome.network.is_some() {
                 let cost = outcome.cost.objective;
-                outcome.bound = outcome.bound.max(pool.bound()).min(cost);
+                outcome.bound = outcome.bound.max(pool.bound());
+                if contradicts(&outcome.cost, outcome.bound) {
+                    return Err(DesignError::SolverFailed {
+                        solver: self.exact.solver.name(),
+                        what: "a valid network costs less than what it said was the least"
+                            .to_owned(),
+                    });
+                }
+                outcome.bound = outcome.bound.min(cost);
                 // As the record of a solver has it.
                 if cost - outcome.bound <= limits.gap * cost.abs() + 1e-6 {
                     outcome.ended = Ended::Proven;
@@ -138,20 +154,31 @@ struct Beside<'r, M> {
 impl<M: MipSolver + Sync> Beside<'_, M> {
     /// Says when the first network was there.
     fn run(&self, start: Option<&Network>) -> Result<Option<Duration>, DesignError> {
+        let exact = &self.race.exact;
         let share = (self.limits.deadline).map_or(UNLIMITED, |time| time.mul_f64(SHARE));
         let mut first = self.search(start, share)?;
-        let mut until = |_: &Progress<'_>| {
-            let climbs = self.spent() >= 2 * share && self.pool.has_program();
-            !self.is_over() && !climbs
-        };
-        self.windows(&mut first, &mut until)?;
-        let mut until = |_: &Progress<'_>| !self.is_over();
+        let mut until_over = |_: &Progress<'_>| !self.is_over();
         if !self.is_over() {
-            let exact = &self.race.exact;
-            exact.solve_beside(self.problem, &self.left(), &mut until, self.pool)?;
+            // Not the way of the one that comes to it later.
+            let limits = self.left_with(TRAVEL);
+            exact.travel_beside(self.problem, &limits, &mut until_over, self.pool)?;
         }
-        if !self.is_over() {
-            self.windows(&mut first, &mut until)?;
+        let mut done = 0;
+        while !self.is_over() {
+            let is_new = || self.pool.programs() > done;
+            let mut until_due = |_: &Progress<'_>| {
+                let is_due = is_new() && self.spent() >= 2 * share;
+                !self.is_over() && !is_due
+            };
+            self.windows(&mut first, &mut until_due)?;
+            // Windows are over by themselves where one holds all.
+            while !self.is_over() && !is_new() {
+                thread::sleep(PACE);
+            }
+            done = self.pool.programs();
+            if !self.is_over() {
+                exact.solve_beside(self.problem, &self.left(), &mut until_over, self.pool)?;
+            }
         }
         Ok(first)
     }
@@ -169,10 +196,7 @@ impl<M: MipSolver + Sync> Beside<'_, M> {
             !self.is_over() && progress.elapsed < time
         };
         // Not the way of a search that came before.
-        let limits = Limits {
-            seed: self.limits.seed ^ 0x5EA2_C4B5,
-            ..self.limits.clone()
-        };
+        let limits = self.left_with(SEARCH);
         let known = self.pool.better_than(f64::INFINITY);
         let start = known.as_ref().or(start);
         let found = (self.race.search).solve(self.problem, start, &limits, &mut go_on)?;
@@ -209,9 +233,15 @@ impl<M: MipSolver + Sync> Beside<'_, M> {
     }
 
     fn left(&self) -> Limits {
+        self.left_with(0)
+    }
+
+    /// The limits, with what is left of the time and another seed.
+    fn left_with(&self, other: u64) -> Limits {
         let deadline = self.limits.deadline;
         Limits {
             deadline: deadline.map(|time| time.saturating_sub(self.spent())),
+            seed: self.limits.seed ^ other,
             ..self.limits.clone()
         }
     }
@@ -234,8 +264,12 @@ impl<M: MipSolver + Sync> Race<M> {
         match limits.deadline {
             Some(deadline) => {
                 let time = deadline / 8;
-                let first = (&self.windows as &dyn NetworkSolver, time, time);
-                in_turn(first, &self.exact, problem, start, limits, watch)
+                let first = Turn {
+                    solver: &self.windows,
+                    time: &|_| time,
+                    patience: time,
+                };
+                in_turn(&first, &self.exact, problem, start, limits, watch)
             }
             None => self.exact.solve(problem, start, limits, watch),
         }
@@ -290,6 +324,49 @@ mod tests {
     }
 
     #[test]
+    fn travel_beside_a_proof_counts_when_length_is_settled() {
+        let problem = Problem {
+            travel_weight: 0.001,
+            ..square()
+        };
+        // Around the square is 4 long and travels 2. The shortest is 3.5 long and
+        // travels 1; there are two of them.
+        let of = |active: [bool; 5]| Network {
+            active: active.to_vec(),
+            ..Network::default()
+        };
+        let exact = Exact::new(Microlp);
+        let limits = Limits::default();
+        let beside = |pool: &Pool| {
+            let found = exact.travel_beside(&problem, &limits, &mut |_| true, pool);
+            found.expect("no failure");
+        };
+        let pool = Pool::default();
+        // Nothing to do without a network.
+        beside(&pool);
+        let around = of([true, true, true, true, false]);
+        pool.offer(&around, cost_of(&problem, &around).objective);
+        beside(&pool);
+        pool.settle(3.5);
+        assert_eq!(pool.bound(), 0.0, "some are shorter than 4");
+        let short = of([false, false, true, true, true]);
+        pool.offer(&short, cost_of(&problem, &short).objective);
+        beside(&pool);
+        assert!((pool.bound() - 3.501).abs() < 1e-6, "{}", pool.bound());
+        // Steps have all threads.
+        let steps = Exact {
+            climbs_from: 0,
+            ..exact
+        };
+        let pool = Pool::default();
+        pool.offer(&short, cost_of(&problem, &short).objective);
+        pool.settle(3.5);
+        let found = steps.travel_beside(&problem, &limits, &mut |_| true, &pool);
+        found.expect("no failure");
+        assert_eq!(pool.bound(), 0.0);
+    }
+
+    #[test]
     fn steps_beside_a_proof_end_at_the_optimum() {
         let problem = square();
         let pool = Pool::default();
@@ -307,6 +384,7 @@ mod tests {
         pool.publish(Tightened {
             formulation: Formulation::TravelFlow,
             longest: None,
+            settled: None,
             cuts: vec![],
         });
         beside().expect("no failure");

@@ -19,6 +19,9 @@ pub(super) struct Record<'p, 'w> {
     first: Option<Duration>,
     watch: &'w mut Watch<'w>,
     pub(super) pool: Option<&'w Pool>,
+    /// What all networks are supposed to cost at least without travel, so that
+    /// bounds are of those that do.
+    supposed: Option<f64>,
 }
 
 impl<'p, 'w> Record<'p, 'w> {
@@ -44,6 +47,7 @@ impl<'p, 'w> Record<'p, 'w> {
             first: None,
             watch,
             pool,
+            supposed: None,
         };
         record.receive();
         if let Some(network) = start {
@@ -90,16 +94,41 @@ impl<'p, 'w> Record<'p, 'w> {
     pub(super) fn raise(&mut self, bound: f64) {
         if bound > self.bound && bound.is_finite() {
             self.bound = bound;
-            if let Some(pool) = self.pool {
-                pool.raise(bound);
+            match (self.pool, self.supposed) {
+                (Some(pool), Some(least)) => pool.suppose(least, bound),
+                (Some(pool), None) => pool.raise(bound),
+                (None, _) => {}
             }
         }
+    }
+
+    /// No network costs less without travel.
+    pub(super) fn settle(&mut self, least: f64) {
+        if let Some(pool) = self.pool {
+            pool.settle(least);
+            self.receive();
+        }
+    }
+
+    /// Bounds are of the networks that cost so much without travel from now on; what
+    /// was supposed before is forgotten.
+    pub(super) fn suppose(&mut self, least: f64) {
+        self.supposed = Some(least);
+        self.bound = self.pool.map_or(0.0, Pool::bound);
+    }
+
+    /// Whether the best network is none of those that the bound is of.
+    pub(super) fn is_void(&self) -> bool {
+        let (Some(least), Some((_, cost))) = (self.supposed, &self.best) else {
+            return false;
+        };
+        cost.without_travel(self.problem) < least - 1e-6 * least.abs().max(1.0)
     }
 
     /// No network is better than the best.
     pub(super) fn close(&mut self) {
         if let Some((_, cost)) = &self.best {
-            self.bound = cost.objective;
+            self.raise(cost.objective);
         }
     }
 
@@ -113,8 +142,7 @@ impl<'p, 'w> Record<'p, 'w> {
 
     /// Whether the best costs less than networks may, so that some solver was wrong.
     pub(super) fn is_contradicted(&self) -> bool {
-        let slack = 1e-5 * self.bound.abs().max(1.0);
-        (self.best.as_ref()).is_some_and(|(_, cost)| cost.objective < self.bound - slack)
+        (self.best.as_ref()).is_some_and(|(_, cost)| contradicts(cost, self.bound))
     }
 
     /// Tells the watch; says whether to go on.
@@ -171,4 +199,9 @@ impl<'p, 'w> Record<'p, 'w> {
             .map_or(f64::INFINITY, |(_, cost)| cost.objective);
         self.bound.min(best)
     }
+}
+
+/// Whether a network costs less than a bound says that networks may.
+pub(super) fn contradicts(cost: &Cost, bound: f64) -> bool {
+    cost.objective < bound - 1e-5 * bound.abs().max(1.0)
 }

@@ -22,11 +22,18 @@ pub struct Started<N> {
     /// Default value: 0.15.
     pub share: f64,
     /// Most that the search has once it has found something, and what it has
-    /// without a deadline.
+    /// without a deadline. It ends before that when nothing better has come of it
+    /// for a second and three times as long as the best took.
     ///
     /// Default value: 4 s.
     pub most: Duration,
 }
+
+/// After what time without anything better a search is over, and how many times as
+/// long as the best took that is besides: most of the time is for the proof, and
+/// where that is short a search that is idle is what it lacks.
+const IDLE: Duration = Duration::from_secs(1);
+const IDLE_FACTOR: u32 = 3;
 
 impl<N> Started<N> {
     /// With default options.
@@ -55,21 +62,29 @@ impl<N: NetworkSolver> NetworkSolver for Started<N> {
         let patience = limits
             .deadline
             .map_or(4 * self.most, |deadline| deadline / 2);
-        in_turn(
-            (&self.search, time, time.max(patience)),
-            &self.then,
-            problem,
-            start,
-            limits,
-            watch,
-        )
+        let idle = |last: Duration| last + IDLE + IDLE_FACTOR * last;
+        let first = Turn {
+            solver: &self.search,
+            time: &|last| time.min(idle(last)),
+            patience: time.max(patience),
+        };
+        in_turn(&first, &self.then, problem, start, limits, watch)
     }
 }
 
-/// `first` for so much of the time, and as long as it has nothing for the second,
-/// then `then`. What the first proves, or a watch that stops it, is the end.
+/// A solver that goes before another.
+pub(super) struct Turn<'s> {
+    pub(super) solver: &'s dyn NetworkSolver,
+    /// When it is over, if its last network was found at that time.
+    pub(super) time: &'s dyn Fn(Duration) -> Duration,
+    /// When it is over while it has found nothing.
+    pub(super) patience: Duration,
+}
+
+/// One solver for its time, then `then`. What the first proves, or a watch that
+/// stops it, is the end.
 pub(super) fn in_turn(
-    (first, time, patience): (&dyn NetworkSolver, Duration, Duration),
+    first: &Turn<'_>,
     then: &dyn NetworkSolver,
     problem: &Problem,
     start: Option<&Network>,
@@ -80,17 +95,23 @@ pub(super) fn in_turn(
         deadline: Some(
             limits
                 .deadline
-                .map_or(patience, |deadline| deadline.min(patience)),
+                .map_or(first.patience, |deadline| deadline.min(first.patience)),
         ),
         ..limits.clone()
     };
     let mut refused = false;
+    let mut last = Duration::ZERO;
     let mut until_enough = |progress: &Progress<'_>| {
         let go_on = watch(progress);
         refused |= !go_on;
-        go_on && (progress.elapsed < time || progress.best.is_none())
+        if progress.improved {
+            last = progress.elapsed;
+        }
+        go_on && (progress.elapsed < (first.time)(last) || progress.best.is_none())
     };
-    let mut found = first.solve(problem, start, &early, &mut until_enough)?;
+    let mut found = first
+        .solver
+        .solve(problem, start, &early, &mut until_enough)?;
     if found.ended == Ended::Cancelled && !refused {
         found.ended = Ended::Deadline;
     }

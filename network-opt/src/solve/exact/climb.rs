@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 
 use super::super::pool::{Pool, Tightened};
 use super::super::record::Record;
-use super::super::Limits;
+use super::super::{Ended, Limits};
 use super::run::{Run, Until};
 use super::Exact;
 use crate::design::Problem;
@@ -45,11 +45,16 @@ impl<M: MipSolver> Exact<M> {
     ) -> Result<Run, DesignError> {
         if self.is_climbed(record.problem) {
             if let Some(pool) = record.pool {
-                pool.publish(Tightened {
-                    formulation: formulated.formulation(),
-                    longest: formulated.longest().map(<[f64]>::to_vec),
-                    cuts: formulated.added().to_vec(),
-                });
+                pool.publish(Tightened::of(formulated));
+            }
+            record.receive();
+            if record.best.is_none() {
+                // Levels lie below some network.
+                let left = record.left(limits);
+                let run = self.run(formulated, &left, record, Until::Known)?;
+                if run != Run::Ended(Ended::Deadline) || record.best.is_none() {
+                    return Ok(run);
+                }
             }
             if let Some(run) = self.in_steps(formulated, limits, record, FIRST[0])? {
                 return Ok(run);
@@ -64,7 +69,7 @@ impl<M: MipSolver> Exact<M> {
         self.run(formulated, &left, record, Until::Proof)
     }
 
-    /// Refutes lower levels than another solver is at, until none are left.
+    /// Refutes levels that another solver is not at, until none are left.
     pub(super) fn climb_below(
         &self,
         formulated: &Formulated<'_>,
@@ -103,8 +108,10 @@ impl<M: MipSolver> Exact<M> {
             };
             let level = formulated.unpriced(claim.level());
             let left = record.left(limits);
-            let began = Instant::now();
+            let (began, before) = (Instant::now(), record.bound);
             match self.run(formulated, &left, record, Until::Refuted(level))? {
+                // Where costs are tiny rounding may take all of a step.
+                Run::Refuted if record.bound <= before => return Ok(None),
                 Run::Refuted => {
                     let left = record.left(limits).deadline;
                     *stride *= factor(began.elapsed(), left);

@@ -15,6 +15,8 @@ use crate::mip::{MipProgress, MipReply, MipSolver, MipStatus};
 pub(super) enum Until {
     /// With the first valid network; bounds are of another problem.
     First,
+    /// With a valid network, which there was none of before.
+    Known,
     /// With a proof.
     Proof,
     /// With a proof that no network costs this at most, in units of the program,
@@ -66,7 +68,9 @@ impl<M: MipSolver> Exact<M> {
         let image = |network: &Network| formulated.solution(&formulated.image(network));
         let known = record.best.as_ref().map(|(network, _)| image(network));
         let (program, start) = match until {
-            Until::First | Until::Proof => (Cow::Borrowed(formulated.program()), known),
+            Until::First | Until::Known | Until::Proof => {
+                (Cow::Borrowed(formulated.program()), known)
+            }
             Until::Refuted(level) => {
                 let mut program = formulated.program().clone();
                 program.refute(level);
@@ -77,7 +81,7 @@ impl<M: MipSolver> Exact<M> {
         // may cost after what is to be refuted.
         let bound = |told: f64| match until {
             Until::First => f64::NEG_INFINITY,
-            Until::Proof => formulated.price(program.rounded(told)),
+            Until::Known | Until::Proof => formulated.price(program.rounded(told)),
             Until::Refuted(level) => {
                 formulated.price(program.rounded(told).min(program.after(level)))
             }
@@ -96,10 +100,11 @@ impl<M: MipSolver> Exact<M> {
                 record.raise(bound(told.bound));
                 let received = record.receive();
                 enough = match until {
-                    Until::First => record.best.is_some(),
+                    Until::First | Until::Known => record.best.is_some(),
                     Until::Proof => record.is_within(limits.gap),
                     Until::Refuted(_) => record.is_within(limits.gap) || record.bound >= goal,
                 };
+                enough |= record.is_void();
                 if !record.report(improved || received) || enough {
                     return MipReply::Stop;
                 }
@@ -109,6 +114,9 @@ impl<M: MipSolver> Exact<M> {
                 }
             },
         )?;
+        if record.is_void() {
+            return Ok(Run::Ended(Ended::Deadline));
+        }
         let mut invalid = None;
         if let Some(values) = &found.solution {
             let network = formulated.network(values);

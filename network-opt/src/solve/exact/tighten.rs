@@ -51,7 +51,7 @@ impl<M: MipSolver> Exact<M> {
             let (MipStatus::Optimal, Some(values)) = (found.status, found.solution) else {
                 break;
             };
-            record.raise(formulated.program().rounded(found.objective));
+            record.raise(formulated.price(formulated.program().rounded(found.objective)));
             let rows = formulated.separate(&values, 0.02);
             let before = last.as_ref().map_or(f64::NEG_INFINITY, |(_, cost)| *cost);
             let moved = found.objective > before + PROGRESS * found.objective.abs();
