@@ -6,12 +6,12 @@
 mod common;
 
 use common::config;
-use common::programs::CLOSE;
+use common::programs::{is_kept, CLOSE};
 use common::ways::{all_networks, all_valid, best, recipe};
 use network_opt::design::{
     cost, distances, distances_from, verify, Network, Problem, Violation, Way,
 };
-use network_opt::formulate::{longest_ways, prepare, Fate, Formulated, Formulation};
+use network_opt::formulate::{longest_ways, prepare, Formulated, Formulation};
 use network_opt::mip::Microlp;
 use network_opt::solve::{Ended, Exact, Limits, NetworkSolver, Search};
 use network_opt::DesignError;
@@ -79,19 +79,12 @@ proptest! {
             let formulated = Formulated::new(&problem, formulation, None).unwrap();
             prop_assert!(valid.is_empty() || !formulated.contradicts());
             for network in &valid {
-                for (e, &fate) in fates.iter().enumerate() {
-                    prop_assert!(fate == Fate::Open || (fate == Fate::On) == network.active[e]);
-                }
-                let values = formulated.solution(network);
-                let violation = formulated.program().violation(&values);
-                prop_assert!(violation < CLOSE, "{formulation:?} by {violation}");
-                prop_assert_eq!(&formulated.network(&values), network);
+                let said = is_kept(&formulated, &fates, network)?;
                 let cost = cost(&problem, network);
                 let is = match formulation {
                     Formulation::Flow => problem.length_weight * cost.length + cost.patterns,
                     _ => cost.objective,
                 };
-                let said = formulated.program().objective(&values);
                 prop_assert!((said - is).abs() < CLOSE, "{formulation:?}: {said} for {is}");
                 let step = formulated.program().step();
                 prop_assert!(step == 0.0 || (is / step - (is / step).round()).abs() < 1e-6);

@@ -2,6 +2,7 @@
 //! set of edges, every tiling with rooms and every choice of sinks.
 
 use network_opt::design::{verify, EdgeState, Network, Problem};
+use proptest::prelude::*;
 
 /// All ways to cover the faces; one empty way without rooms.
 fn tilings(problem: &Problem) -> Vec<Vec<usize>> {
@@ -89,6 +90,11 @@ pub(crate) fn all_valid(problem: &Problem) -> Vec<Network> {
 pub(crate) fn open_edges(problem: &Problem) -> usize {
     let open = problem.states.iter().filter(|s| **s == EdgeState::Open);
     open.count()
+}
+
+/// Other numbers for `count` things: all of them, shuffled.
+pub(crate) fn other_numbers(count: usize) -> impl Strategy<Value = Vec<usize>> {
+    Just((0..count).collect::<Vec<_>>()).prop_shuffle()
 }
 
 /// The same problem with other numbers: vertex v becomes `vertices[v]`, edge e
