@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use super::pool::Pool;
 use super::record::contradicts;
-use super::turns::{in_turn, Turn};
+use super::turns::{idle_after, in_turn, Turn};
 use super::{Ended, Exact, Limits, NetworkSolver, Outcome, Progress, Search, Watch, Windows};
 use crate::design::{cost_of, EdgeState, Network, Problem};
 use crate::error::DesignError;
@@ -188,12 +188,14 @@ impl<M: MipSolver + Sync> Beside<'_, M> {
         start: Option<&Network>,
         time: Duration,
     ) -> Result<Option<Duration>, DesignError> {
+        let mut last = Duration::ZERO;
         let mut go_on = |progress: &Progress<'_>| {
             if let (Some((network, cost)), true) = (progress.best, progress.improved) {
                 self.pool.offer(network, cost.objective);
+                last = progress.elapsed;
             }
             self.pool.raise(progress.bound);
-            !self.is_over() && progress.elapsed < time
+            !self.is_over() && progress.elapsed < time.min(idle_after(last))
         };
         // Not the way of a search that came before.
         let limits = self.left_with(SEARCH);

@@ -29,11 +29,12 @@ pub struct Started<N> {
     pub most: Duration,
 }
 
-/// After what time without anything better a search is over, and how many times as
-/// long as the best took that is besides: most of the time is for the proof, and
-/// where that is short a search that is idle is what it lacks.
-const IDLE: Duration = Duration::from_secs(1);
-const IDLE_FACTOR: u32 = 3;
+/// When a search is over that found its best network after so long: a second later,
+/// and three times as long as that took. Time is short for proofs, and more often
+/// than not nothing comes of a search that is idle.
+pub(super) fn idle_after(last: Duration) -> Duration {
+    Duration::from_secs(1) + 4 * last
+}
 
 impl<N> Started<N> {
     /// With default options.
@@ -62,10 +63,9 @@ impl<N: NetworkSolver> NetworkSolver for Started<N> {
         let patience = limits
             .deadline
             .map_or(4 * self.most, |deadline| deadline / 2);
-        let idle = |last: Duration| last + IDLE + IDLE_FACTOR * last;
         let first = Turn {
             solver: &self.search,
-            time: &|last| time.min(idle(last)),
+            time: &|last| time.min(idle_after(last)),
             patience: time.max(patience),
         };
         in_turn(&first, &self.then, problem, start, limits, watch)
