@@ -498,6 +498,17 @@ impl<'p> Formulated<'p> {
         self.program.row(row.low, row.high, row.terms);
     }
 
+    /// Adds those of the rows of another formulation of the same problem, with the
+    /// same families of cuts, that are of streets, patterns and routes alone, which
+    /// come first in all of them.
+    pub(crate) fn adopt(&mut self, rows: &[Row]) {
+        let shared = self.plain[0];
+        let is_shared = |row: &&Row| row.terms.iter().all(|&(column, _)| column < shared);
+        rows.iter()
+            .filter(is_shared)
+            .for_each(|row| self.cut(row.clone()));
+    }
+
     /// The rows that were added.
     pub(crate) fn added(&self) -> &[Row] {
         &self.program.rows()[self.own_rows..]

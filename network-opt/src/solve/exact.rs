@@ -140,9 +140,9 @@ impl<M: MipSolver> Exact<M> {
         Ok(record.outcome(run.ended()))
     }
 
-    /// Refutes levels of the program that another solver has put into the pool,
-    /// others than that one is at. Whether there was any is not told: bounds are
-    /// in the pool.
+    /// Helps another solver that has put its program into the pool: refutes levels
+    /// that one is not at, or looks into travel while that one is at length. Whether
+    /// there was anything to do is not told: bounds are in the pool.
     pub(super) fn solve_beside(
         &self,
         problem: &Problem,
@@ -154,8 +154,14 @@ impl<M: MipSolver> Exact<M> {
             return Ok(());
         };
         let mut record = Record::begin(problem, None, watch, Some(pool))?;
-        let formulated = program.write(problem, self.cuts)?;
-        self.climb_below(&formulated, limits, &mut record)
+        if self.is_climbed(problem) {
+            let formulated = program.write(problem, self.cuts)?;
+            return self.climb_below(&formulated, limits, &mut record);
+        }
+        if self.travels_beside(problem) && program.settled.is_none() {
+            return self.travel_beside(&program.cuts, limits, &mut record);
+        }
+        Ok(())
     }
 }
 

@@ -41,7 +41,7 @@ const UNLIMITED: Duration = Duration::from_secs(20);
 const PACE: Duration = Duration::from_millis(20);
 /// Make other seeds of those of the first thread.
 const SEARCH: u64 = 0x5EA2_C4B5;
-const TRAVEL: u64 = 0x74A7_E115;
+const PROOF: u64 = 0x74A7_E115;
 
 impl<M: Copy> Race<M> {
     /// With default options.
@@ -157,12 +157,13 @@ impl<M: MipSolver + Sync> Beside<'_, M> {
         let exact = &self.race.exact;
         let share = (self.limits.deadline).map_or(UNLIMITED, |time| time.mul_f64(SHARE));
         let mut first = self.search(start, share)?;
+        let share = if exact.travels_beside(self.problem) {
+            // There is more to do than for steps.
+            Duration::ZERO
+        } else {
+            share
+        };
         let mut until_over = |_: &Progress<'_>| !self.is_over();
-        if !self.is_over() {
-            // Not the way of the one that comes to it later.
-            let limits = self.left_with(TRAVEL);
-            exact.travel_beside(self.problem, &limits, &mut until_over, self.pool)?;
-        }
         let mut done = 0;
         while !self.is_over() {
             let is_new = || self.pool.programs() > done;
@@ -177,7 +178,9 @@ impl<M: MipSolver + Sync> Beside<'_, M> {
             }
             done = self.pool.programs();
             if !self.is_over() {
-                exact.solve_beside(self.problem, &self.left(), &mut until_over, self.pool)?;
+                // Not the way of the one that comes to the same later.
+                let limits = self.left_with(PROOF);
+                exact.solve_beside(self.problem, &limits, &mut until_over, self.pool)?;
             }
         }
         Ok(first)
@@ -340,10 +343,17 @@ mod tests {
         let exact = Exact::new(Microlp);
         let limits = Limits::default();
         let beside = |pool: &Pool| {
-            let found = exact.travel_beside(&problem, &limits, &mut |_| true, pool);
+            let found = exact.solve_beside(&problem, &limits, &mut |_| true, pool);
             found.expect("no failure");
         };
+        let length = || Tightened {
+            formulation: Formulation::Flow,
+            longest: None,
+            settled: None,
+            cuts: vec![],
+        };
         let pool = Pool::default();
+        pool.publish(length());
         // Nothing to do without a network.
         beside(&pool);
         let around = of([true, true, true, true, false]);
@@ -355,16 +365,15 @@ mod tests {
         pool.offer(&short, cost_of(&problem, &short).objective);
         beside(&pool);
         assert!((pool.bound() - 3.501).abs() < 1e-6, "{}", pool.bound());
-        // Steps have all threads.
-        let steps = Exact {
-            climbs_from: 0,
-            ..exact
-        };
+        // The first is at travel itself.
         let pool = Pool::default();
+        pool.publish(Tightened {
+            settled: Some(3.5),
+            ..length()
+        });
         pool.offer(&short, cost_of(&problem, &short).objective);
         pool.settle(3.5);
-        let found = steps.travel_beside(&problem, &limits, &mut |_| true, &pool);
-        found.expect("no failure");
+        beside(&pool);
         assert_eq!(pool.bound(), 0.0);
     }
 
@@ -377,7 +386,10 @@ mod tests {
             ..Network::default()
         };
         pool.offer(&all, cost_of(&problem, &all).objective);
-        let exact = Exact::new(Microlp);
+        let exact = Exact {
+            climbs_from: 0,
+            ..Exact::new(Microlp)
+        };
         let limits = Limits::default();
         let beside = || exact.solve_beside(&problem, &limits, &mut |_| true, &pool);
         // Nothing to do without a program.

@@ -43,10 +43,10 @@ impl<M: MipSolver> Exact<M> {
         limits: &Limits,
         record: &mut Record<'_, '_>,
     ) -> Result<Run, DesignError> {
+        if let Some(pool) = record.pool {
+            pool.publish(Tightened::of(formulated));
+        }
         if self.is_climbed(record.problem) {
-            if let Some(pool) = record.pool {
-                pool.publish(Tightened::of(formulated));
-            }
             record.receive();
             if record.best.is_none() {
                 // Levels lie below some network.

@@ -1,15 +1,14 @@
 //! Travel that only decides between networks of one length: length first, then
 //! travel.
 
-use super::super::pool::Pool;
 use super::super::record::Record;
-use super::super::{Limits, Outcome, Watch};
+use super::super::{Limits, Outcome};
 use super::run::{Run, Until};
 use super::Exact;
 use crate::design::Problem;
 use crate::error::DesignError;
 use crate::formulate::{step, Formulated, Formulation};
-use crate::mip::MipSolver;
+use crate::mip::{MipSolver, Row};
 use crate::solve::Ended;
 
 impl<M: MipSolver> Exact<M> {
@@ -50,26 +49,28 @@ impl<M: MipSolver> Exact<M> {
         } else {
             travel.limit_length(low - 1e-6, high);
         }
+        travel.adopt(flow.added());
         let run = self.climb(&mut travel, limits, &mut record)?;
         Ok(record.outcome(run.ended()))
     }
 
-    /// The second of the two steps, beside another solver that is at the first: travel
-    /// among the networks that cost as much without it as the best one does. What it
-    /// proves counts as soon as no network is known to cost less. Begins anew with a
-    /// better network.
-    pub(in super::super) fn travel_beside(
+    /// Whether another solver may do the second step while this one is at the first.
+    /// Where length takes steps it takes all threads.
+    pub(in super::super) fn travels_beside(&self, problem: &Problem) -> bool {
+        self.breaks_ties(problem) && !self.is_climbed(problem)
+    }
+
+    /// The second of the two steps, beside another solver that is at the first and
+    /// has found these cuts: travel among the networks that cost as much without it
+    /// as the best one does. What it proves counts as soon as it is known that no
+    /// network costs less without it. Begins anew with a network that does.
+    pub(super) fn travel_beside(
         &self,
-        problem: &Problem,
+        cuts: &[Row],
         limits: &Limits,
-        watch: &mut Watch<'_>,
-        pool: &Pool,
+        record: &mut Record<'_, '_>,
     ) -> Result<(), DesignError> {
-        // Where length takes steps it takes all threads.
-        if !self.breaks_ties(problem) || self.is_climbed(problem) {
-            return Ok(());
-        }
-        let mut record = Record::begin(problem, None, watch, Some(pool))?;
+        let problem = record.problem;
         let formulation = Formulation::for_problem(problem);
         while let Some((_, cost)) = &record.best {
             let (low, high) = (cost.without_travel(problem), cost.objective);
@@ -78,10 +79,11 @@ impl<M: MipSolver> Exact<M> {
             }
             let mut travel = Formulated::with_cuts(problem, formulation, None, self.cuts)?;
             travel.settle_length(low);
+            travel.adopt(cuts);
             record.suppose(low);
             self.order(&mut travel);
             let left = record.left(limits);
-            self.run(&travel, &left, &mut record, Until::Proof)?;
+            self.run(&travel, &left, record, Until::Proof)?;
             if record.cancelled || !record.is_void() {
                 return Ok(());
             }
