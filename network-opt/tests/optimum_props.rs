@@ -201,8 +201,12 @@ proptest! {
         prop_assume!(open_edges(&problem) <= 10);
         in_steps(&problem, Microlp)?;
     }
+}
 
-    /// The same of what runs beside it: bounds of travel that another thread proves
+proptest! {
+    #![proptest_config(config(100))]
+
+    /// The same of what runs beside a proof: bounds of travel that another thread proves
     /// before the length, steps, windows.
     #[test]
     fn side_by_side_leads_to_the_optimum(recipe in recipe(), breaks_ties: bool) {
@@ -252,6 +256,28 @@ fn presolve_of_highs_loses_no_network() {
         ..recipe
     };
     agrees(&recipe.problem(), &network_opt::mip::Highs).unwrap();
+}
+
+/// HiGHS's presolve makes the worst network the best, and its answer was the worst.
+#[cfg(feature = "highs")]
+#[test]
+fn highs_knows_its_start_from_the_optimum() {
+    let recipe = Recipe {
+        size: (2, 1),
+        cut: vec![false],
+        edges: vec![17, 11, 0, 17, 8, 8, 8],
+        vertices: vec![42, 0, 15, 15, 15, 15],
+        range: 0,
+        unit: true,
+        dead_ends: false,
+        close: 0,
+        zig_zags: 0,
+        branches: 0,
+        weights: (0, 0),
+        route: false,
+        rooms: false,
+    };
+    in_steps(&recipe.problem(), network_opt::mip::Highs).unwrap();
 }
 
 /// All edges known beforehand: nothing is left to decide, a program without

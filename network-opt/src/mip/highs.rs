@@ -141,7 +141,8 @@ impl Drop for Done<'_> {
 }
 
 /// Solves the program; that there is no solution is believed only if HiGHS says
-/// so without its presolve as well, or if that was expected.
+/// so without its presolve as well, or if that was expected, and that a start is the
+/// best only if its bound says so too.
 fn run(
     program: &Program,
     start: Option<&[f64]>,
@@ -150,18 +151,30 @@ fn run(
 ) -> Result<MipOutcome, DesignError> {
     let began = Instant::now();
     let found = attempt(program, start, limits, shared, true)?;
-    // Where that is what was expected, asking twice would take as long again.
-    if found.status != MipStatus::Infeasible || program.is_refuted() {
-        return Ok(found);
-    }
-    let spent = began.elapsed();
-    let rest = Limits {
-        deadline: limits
-            .deadline
-            .map(|deadline| deadline.saturating_sub(spent)),
+    let rest = || Limits {
+        deadline: (limits.deadline).map(|deadline| deadline.saturating_sub(began.elapsed())),
         ..limits.clone()
     };
-    attempt(program, start, &rest, shared, false)
+    match found.status {
+        // Where that is what was expected, asking twice would take as long again.
+        MipStatus::Infeasible if !program.is_refuted() => {
+            attempt(program, start, &rest(), shared, false)
+        }
+        // HiGHS 1.16 takes the image of a start in its presolved program for the
+        // optimum, which it may be, and answers with the start itself, which costs
+        // more: presolve drops what costs something and is not needed.
+        MipStatus::Optimal if start.is_some() && !is_proven(program, &found, limits) => {
+            attempt(program, None, &rest(), shared, true)
+        }
+        _ => Ok(found),
+    }
+}
+
+/// Whether the bound of an outcome is as near to its solution as was asked for.
+fn is_proven(program: &Program, found: &MipOutcome, limits: &Limits) -> bool {
+    let scale = found.objective.abs();
+    let gap = (limits.gap * scale).max(program.step() * (1.0 - 1e-4));
+    found.objective - found.bound <= gap + 1e-6 * scale.max(1.0)
 }
 
 /// Hands the program to HiGHS and waits for its answer.
@@ -222,11 +235,6 @@ fn configure(model: &mut Model, program: &Program, limits: &Limits, presolve: bo
     if !presolve {
         model.try_set_option("presolve", "off").ok()?;
     }
-    // Most of what cuts are good for they do at the root; below it they make
-    // relaxations slow (networks of 312 edges: a tenth to a third of the time).
-    model
-        .try_set_option("mip_allow_cut_separation_at_nodes", false)
-        .ok()?;
     if program.is_refuted() {
         model.try_set_option("mip_heuristic_effort", 0.0).ok()?;
     }
