@@ -1,6 +1,7 @@
 //! What the search does to a network: each move changes the state by any
 //! number of logged steps, and whoever asked for it takes them back or not.
 
+mod relay;
 mod repair;
 mod sinks;
 
@@ -10,6 +11,12 @@ use super::score::Fines;
 use super::state::State;
 use super::ways::Ways;
 use crate::dice::Dice;
+
+/// The share of moves that lay a part of a chain anew. Without them the search
+/// hardly finds from one network of few long chains to another; more of them
+/// find no better ones, and networks of many short chains are made by the other
+/// moves.
+const RELAYS: f64 = 0.4;
 
 /// A state with all that its moves need.
 #[derive(Debug)]
@@ -85,6 +92,10 @@ impl<'m, 'p> Walk<'m, 'p> {
                 return;
             }
         }
+        if self.dice.chance(RELAYS) {
+            self.relay();
+            return;
+        }
         if self.state.removable.is_empty() || draw < 0.1 {
             if !self.repair(4) {
                 self.extend();
@@ -156,19 +167,29 @@ impl<'m, 'p> Walk<'m, 'p> {
     }
 
     /// Removes edges from a dead end on to where there is none.
-    fn trim(&mut self, mut v: usize) {
-        while self.state.degree[v] == 1 && !self.state.sinks[v] {
+    fn trim(&mut self, v: usize) {
+        self.shorten(v, usize::MAX);
+    }
+
+    /// Removes edges from a dead end on, so many at most, and not beyond where
+    /// chains meet. Says where it comes to.
+    fn shorten(&mut self, mut v: usize, steps: usize) -> usize {
+        for _ in 0..steps {
+            if self.state.degree[v] != 1 || self.state.sinks[v] {
+                break;
+            }
             let active = |&&(e, _): &&(usize, usize)| self.state.active[e];
             let Some(&(e, w)) = self.model.around.of(v).iter().find(active) else {
-                return;
+                break;
             };
             if !self.state.removable.contains(e) {
-                return;
+                break;
             }
             self.state.flip(self.model, e);
             self.near.push(w);
             v = w;
         }
+        v
     }
 
     /// Removes what reaches no sink.
