@@ -85,7 +85,7 @@ impl<M: MipSolver + Sync> NetworkSolver for Race<M> {
                     pool: &pool,
                     over: &over,
                 };
-                beside.run(start)
+                beside.run()
             });
             let mut told = |progress: &Progress<'_>| {
                 let go_on = watch(progress);
@@ -153,10 +153,10 @@ struct Beside<'r, M> {
 
 impl<M: MipSolver + Sync> Beside<'_, M> {
     /// Says when the first network was there.
-    fn run(&self, start: Option<&Network>) -> Result<Option<Duration>, DesignError> {
+    fn run(&self) -> Result<Option<Duration>, DesignError> {
         let exact = &self.race.exact;
         let share = (self.limits.deadline).map_or(UNLIMITED, |time| time.mul_f64(SHARE));
-        let mut first = self.search(start, share)?;
+        let mut first = self.search(2 * share)?;
         let share = if exact.travels_beside(self.problem) {
             // There is more to do than for steps.
             Duration::ZERO
@@ -186,11 +186,8 @@ impl<M: MipSolver + Sync> Beside<'_, M> {
         Ok(first)
     }
 
-    fn search(
-        &self,
-        start: Option<&Network>,
-        time: Duration,
-    ) -> Result<Option<Duration>, DesignError> {
+    /// From nothing: what comes of the best network the search before it has tried.
+    fn search(&self, time: Duration) -> Result<Option<Duration>, DesignError> {
         let mut last = Duration::ZERO;
         let mut go_on = |progress: &Progress<'_>| {
             if let (Some((network, cost)), true) = (progress.best, progress.improved) {
@@ -202,9 +199,7 @@ impl<M: MipSolver + Sync> Beside<'_, M> {
         };
         // Not the way of a search that came before.
         let limits = self.left_with(SEARCH);
-        let known = self.pool.better_than(f64::INFINITY);
-        let start = known.as_ref().or(start);
-        let found = (self.race.search).solve(self.problem, start, &limits, &mut go_on)?;
+        let found = (self.race.search).solve(self.problem, None, &limits, &mut go_on)?;
         if let Some(network) = &found.network {
             self.pool.offer(network, found.cost.objective);
         }
