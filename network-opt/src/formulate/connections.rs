@@ -170,7 +170,7 @@ impl Connections {
 
 #[cfg(test)]
 mod tests {
-    use crate::design::{EdgeState, Problem};
+    use crate::design::{EdgeState, Network, Problem};
     use crate::formulate::{Cuts, Formulated, Formulation};
 
     /// A street of six vertices between sinks at both ends; 2 or 3 has to be
@@ -215,5 +215,33 @@ mod tests {
         };
         let without = Formulated::with_cuts(&problem, Formulation::Flow, None, cuts);
         assert!(!without.expect("fits").separates());
+    }
+
+    #[test]
+    fn other_formulations_adopt_what_is_of_streets_alone() {
+        let problem = Problem {
+            travel_weight: 0.001,
+            ..street()
+        };
+        let flow = Formulated::new(&problem, Formulation::Flow, None).expect("fits");
+        let mut travel = Formulated::new(&problem, Formulation::TravelFlow, None).expect("fits");
+        let columns = flow.program().columns().len();
+        let mut values = vec![0.0; columns];
+        values[..5].copy_from_slice(&[0.2, 0.2, 0.2, 0.1, 0.2]);
+        let mut rows = flow.separate(&values, 0.01);
+        let streets = rows.clone();
+        let mut of_flow = rows[0].clone();
+        of_flow.terms.push((columns - 1, 1.0));
+        rows.push(of_flow);
+        travel.adopt(&rows);
+        assert_eq!(travel.added(), streets);
+        // Their columns are the same ones: two edges from a sink to vertex 2.
+        let network = Network {
+            active: vec![true, true, false, false, false],
+            ..Network::default()
+        };
+        let solution = travel.solution(&network);
+        assert!(travel.program().violation(&solution) < 1e-9);
+        assert_eq!(solution[..5], flow.solution(&network)[..5]);
     }
 }

@@ -14,8 +14,8 @@ use crate::error::DesignError;
 use crate::mip::MipSolver;
 
 /// Runs [`Exact`] and, side by side with it, what finds better networks:
-/// [`Search`] and [`Windows`], a tenth of the time each, and then, where bounds are
-/// raised in steps ([`Exact::climbs_from`]), other steps than those of the first.
+/// [`Search`] from nothing, as long as something comes of it, and [`Windows`], a fifth
+/// of the time for both, and then, where bounds are raised in steps ([`Exact::climbs_from`]), other steps than those of the first.
 /// Where travel only decides between networks of one length, and there are no steps,
 /// it looks into travel at once, while the first thread proves the length. Programs and
 /// windows know of the best network and the best bound. With one thread windows
@@ -33,10 +33,10 @@ pub struct Race<M> {
     pub search: Search,
 }
 
-/// Part of the time that the search has, and at the same time windows after it.
-const SHARE: f64 = 0.1;
+/// Part of the time that the search and windows have.
+const SHARE: f64 = 0.2;
 /// What that is without a deadline.
-const UNLIMITED: Duration = Duration::from_secs(20);
+const UNLIMITED: Duration = Duration::from_secs(40);
 /// Between two looks for something to do.
 const PACE: Duration = Duration::from_millis(20);
 /// Make other seeds of those of the first thread.
@@ -156,9 +156,9 @@ impl<M: MipSolver + Sync> Beside<'_, M> {
     fn run(&self) -> Result<Option<Duration>, DesignError> {
         let exact = &self.race.exact;
         let share = (self.limits.deadline).map_or(UNLIMITED, |time| time.mul_f64(SHARE));
-        let mut first = self.search(2 * share)?;
+        let mut first = self.search(share)?;
         let share = if exact.travels_beside(self.problem) {
-            // There is more to do than for steps.
+            // Travel takes longer than what is left of a proof of length.
             Duration::ZERO
         } else {
             share
@@ -168,7 +168,7 @@ impl<M: MipSolver + Sync> Beside<'_, M> {
         while !self.is_over() {
             let is_new = || self.pool.programs() > done;
             let mut until_due = |_: &Progress<'_>| {
-                let is_due = is_new() && self.spent() >= 2 * share;
+                let is_due = is_new() && self.spent() >= share;
                 !self.is_over() && !is_due
             };
             self.windows(&mut first, &mut until_due)?;
@@ -186,7 +186,8 @@ impl<M: MipSolver + Sync> Beside<'_, M> {
         Ok(first)
     }
 
-    /// From nothing: what comes of the best network the search before it has tried.
+    /// From nothing: what comes of the best network the search before this one has
+    /// tried.
     fn search(&self, time: Duration) -> Result<Option<Duration>, DesignError> {
         let mut last = Duration::ZERO;
         let mut go_on = |progress: &Progress<'_>| {
