@@ -6,7 +6,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::pool::Pool;
-use super::record::contradicts;
+use super::record::{contradicts, too_cheap};
 use super::turns::{idle_after, in_turn, Turn};
 use super::{Ended, Exact, Limits, NetworkSolver, Outcome, Progress, Search, Watch, Windows};
 use crate::design::{cost_of, EdgeState, Network, Problem};
@@ -124,11 +124,7 @@ impl<M: MipSolver + Sync> NetworkSolver for Race<M> {
                 let cost = outcome.cost.objective;
                 outcome.bound = outcome.bound.max(pool.bound());
                 if contradicts(&outcome.cost, outcome.bound) {
-                    return Err(DesignError::SolverFailed {
-                        solver: self.exact.solver.name(),
-                        what: "a valid network costs less than what it said was the least"
-                            .to_owned(),
-                    });
+                    return Err(too_cheap(self.exact.solver.name()));
                 }
                 outcome.bound = outcome.bound.min(cost);
                 // As the record of a solver has it.
@@ -281,7 +277,7 @@ impl<M: MipSolver + Sync> Race<M> {
 const LARGE: usize = 280;
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::super::pool::Tightened;
     use super::*;
     use crate::formulate::Formulation;
@@ -290,7 +286,7 @@ mod tests {
     /// A square with a diagonal; vertex 2 has to be reached and left. Best is out by
     /// the diagonal and back by two edges: 3.5 long, and the edge at vertex 2 starts
     /// from a way of 1.
-    fn square() -> Problem {
+    pub(in crate::solve) fn square() -> Problem {
         Problem {
             vertices: 4,
             ends: vec![[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]],

@@ -205,3 +205,11 @@ impl<'p, 'w> Record<'p, 'w> {
 pub(super) fn contradicts(cost: &Cost, bound: f64) -> bool {
     cost.objective < bound - 1e-5 * bound.abs().max(1.0)
 }
+
+/// What a solver is told whose bound a network contradicts.
+pub(super) fn too_cheap(solver: &'static str) -> DesignError {
+    DesignError::SolverFailed {
+        solver,
+        what: "a valid network costs less than what it said was the least".to_owned(),
+    }
+}

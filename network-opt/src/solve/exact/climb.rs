@@ -182,8 +182,9 @@ fn factor(took: Duration, left: Option<Duration>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::{EdgeState, Network};
+    use crate::design::Network;
     use crate::mip::{Microlp, MipOutcome, MipStatus, MipWatch, Program};
+    use crate::solve::race::tests::square;
     use crate::solve::NetworkSolver;
 
     #[test]
@@ -253,18 +254,8 @@ mod tests {
 
     #[test]
     fn a_network_under_the_bound_is_an_error() {
-        // A square with a diagonal, all of it active: 7.5; 4.5 is enough.
-        let problem = Problem {
-            vertices: 4,
-            ends: vec![[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]],
-            lengths: vec![1.0, 1.0, 1.0, 1.0, 1.5],
-            states: vec![EdgeState::Open; 5],
-            sinks: vec![true, false, false, false],
-            required_vertices: vec![2],
-            length_weight: 1.0,
-            travel_weight: 1.0,
-            ..Problem::default()
-        };
+        // All of it active costs 7.5; 4.5 is enough.
+        let problem = square();
         let all = Network {
             active: vec![true; 5],
             ..Network::default()

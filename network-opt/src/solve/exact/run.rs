@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::super::record::Record;
+use super::super::record::{too_cheap, Record};
 use super::super::{Ended, Limits};
 use super::Exact;
 use crate::design::{verify, Network};
@@ -132,10 +132,7 @@ impl<M: MipSolver> Exact<M> {
             _ => record.raise(bound(found.bound)),
         }
         if record.is_contradicted() {
-            return Err(DesignError::SolverFailed {
-                solver: self.solver.name(),
-                what: "a valid network costs less than what it said was the least".to_owned(),
-            });
+            return Err(too_cheap(self.solver.name()));
         }
         match (found.status, until) {
             (MipStatus::Infeasible, Until::Refuted(_)) => {
