@@ -98,3 +98,90 @@ fn leaves_travel(problem: &Problem, low: f64, high: f64) -> bool {
     let step = step(problem, Formulation::Flow);
     step > 0.0 && high < low + step - 1e-6
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::super::super::pool::{Pool, Tightened};
+    use super::*;
+    use crate::design::{cost_of, Network};
+    use crate::mip::{Microlp, MipOutcome, MipProgress, MipReply, MipStatus, MipWatch, Program};
+    use crate::solve::race::tests::square;
+
+    /// Is told of a shorter network while it looks into travel for the first time.
+    struct Interrupted<'a> {
+        pool: &'a Pool,
+        shorter: (Network, f64),
+        calls: AtomicUsize,
+    }
+
+    impl MipSolver for Interrupted<'_> {
+        fn name(&self) -> &'static str {
+            "interrupted"
+        }
+
+        fn solve(
+            &self,
+            program: &Program,
+            start: Option<&[f64]>,
+            limits: &Limits,
+            watch: &mut MipWatch<'_>,
+        ) -> Result<MipOutcome, DesignError> {
+            if self.calls.fetch_add(1, Ordering::Relaxed) > 0 {
+                return Microlp.solve(program, start, limits, watch);
+            }
+            self.pool.offer(&self.shorter.0, self.shorter.1);
+            let reply = watch(&MipProgress {
+                elapsed: std::time::Duration::ZERO,
+                best: None,
+                improved: false,
+                // More than the shorter one costs: of longer ones it is true.
+                bound: 1.0,
+            });
+            assert_eq!(reply, MipReply::Stop);
+            Ok(MipOutcome {
+                status: MipStatus::Cancelled,
+                solution: None,
+                objective: f64::INFINITY,
+                bound: 1.0,
+            })
+        }
+    }
+
+    #[test]
+    fn a_shorter_network_begins_travel_anew() {
+        let problem = Problem {
+            travel_weight: 0.001,
+            ..square()
+        };
+        let of = |active: [bool; 5]| {
+            let network = Network {
+                active: active.to_vec(),
+                ..Network::default()
+            };
+            let cost = cost_of(&problem, &network).objective;
+            (network, cost)
+        };
+        let pool = Pool::default();
+        let (around, cost) = of([true, true, true, true, false]);
+        pool.offer(&around, cost);
+        pool.publish(Tightened {
+            formulation: Formulation::Flow,
+            longest: None,
+            settled: None,
+            cuts: vec![],
+        });
+        let exact = Exact::new(Interrupted {
+            pool: &pool,
+            shorter: of([false, false, true, true, true]),
+            calls: AtomicUsize::new(0),
+        });
+        let found = exact.solve_beside(&problem, &Limits::default(), &mut |_| true, &pool);
+        found.expect("no failure");
+        assert!(exact.solver.calls.load(Ordering::Relaxed) > 1);
+        assert_eq!(pool.bound(), 0.0);
+        pool.settle(3.5);
+        assert!((pool.bound() - 3.501).abs() < 1e-6, "{}", pool.bound());
+    }
+}
