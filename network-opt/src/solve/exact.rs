@@ -15,6 +15,8 @@ mod tighten;
 
 use run::Until;
 
+pub(super) use ties::breaks_ties;
+
 /// Solves problems as integer programs.
 ///
 /// Every network that it reports has passed [`verify`](crate::design::verify); its cost is that of

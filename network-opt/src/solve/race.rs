@@ -14,7 +14,7 @@ use crate::error::DesignError;
 use crate::mip::MipSolver;
 
 /// Runs [`Exact`] and, side by side with it, what finds better networks:
-/// [`Search`] from nothing, as long as something comes of it, and [`Windows`], a fifth
+/// [`Search`] from nothing, as long as something comes of it, and [`Windows`], a quarter
 /// of the time for both, and then, where bounds are raised in steps ([`Exact::climbs_from`]), other steps than those of the first.
 /// Where travel only decides between networks of one length, and there are no steps,
 /// it looks into travel at once, while the first thread proves the length. Programs and
@@ -34,7 +34,7 @@ pub struct Race<M> {
 }
 
 /// Part of the time that the search and windows have.
-const SHARE: f64 = 0.2;
+const SHARE: f64 = 0.25;
 /// What that is without a deadline.
 const UNLIMITED: Duration = Duration::from_secs(40);
 /// Between two looks for something to do.
@@ -152,7 +152,7 @@ impl<M: MipSolver + Sync> Beside<'_, M> {
     fn run(&self) -> Result<Option<Duration>, DesignError> {
         let exact = &self.race.exact;
         let share = (self.limits.deadline).map_or(UNLIMITED, |time| time.mul_f64(SHARE));
-        let mut first = self.search(share)?;
+        let mut first = self.search(share / 2)?;
         let share = if exact.travels_beside(self.problem) {
             // Travel takes longer than what is left of a proof of length.
             Duration::ZERO

@@ -14,9 +14,7 @@ use crate::solve::Ended;
 impl<M: MipSolver> Exact<M> {
     /// Whether travel is worth so little that length has to be settled first.
     pub(super) fn breaks_ties(&self, problem: &Problem) -> bool {
-        self.formulation == Formulation::Recommended
-            && problem.travel_weight > 0.0
-            && problem.travel_weight <= problem.length_weight / 100.0
+        self.formulation == Formulation::Recommended && breaks_ties(problem)
     }
 
     /// First the least length, without travel, by the program that is best for
@@ -90,6 +88,12 @@ impl<M: MipSolver> Exact<M> {
         }
         Ok(())
     }
+}
+
+/// Whether travel is worth so little that it only decides between networks of one
+/// length.
+pub(in super::super) fn breaks_ties(problem: &Problem) -> bool {
+    problem.travel_weight > 0.0 && problem.travel_weight <= problem.length_weight / 100.0
 }
 
 /// Whether what costs more than `low` without travel costs more than `high` in all,
