@@ -115,6 +115,11 @@ impl Pool {
         shared.conclude();
     }
 
+    /// Whether it is known that no network costs less without travel.
+    pub(super) fn is_settled(&self, least: f64) -> bool {
+        self.shared().is_settled(least)
+    }
+
     /// No network that costs `least` at least without travel costs less than
     /// `bound`; it becomes a bound on all as soon as that is what they cost.
     pub(super) fn suppose(&self, least: f64, bound: f64) {
@@ -158,11 +163,14 @@ impl Pool {
 }
 
 impl Shared {
+    fn is_settled(&self, least: f64) -> bool {
+        // Bounds of solvers are within this of what networks cost.
+        self.least >= least - 1e-6 * least.abs().max(1.0)
+    }
+
     fn conclude(&mut self) {
         if let Some(Supposed { least, bound }) = self.supposed {
-            // Bounds of solvers are within this of what networks cost.
-            let holds = self.least >= least - 1e-6 * least.abs().max(1.0);
-            if holds && bound.is_finite() {
+            if self.is_settled(least) && bound.is_finite() {
                 self.bound = self.bound.max(bound);
             }
         }
@@ -226,7 +234,9 @@ mod tests {
         assert_eq!(pool.bound(), 0.0);
         pool.settle(18.0);
         assert_eq!(pool.bound(), 0.0);
+        assert!(pool.is_settled(18.0) && !pool.is_settled(19.0));
         pool.settle(19.0 - 1e-9);
+        assert!(pool.is_settled(19.0));
         assert_eq!(pool.bound(), 19.5);
         // From then on at once, and never less.
         pool.suppose(19.0, 19.75);

@@ -14,10 +14,11 @@ use crate::error::DesignError;
 use crate::mip::MipSolver;
 
 /// Runs [`Exact`] and, side by side with it, what finds better networks:
-/// [`Search`] from nothing, as long as something comes of it, and [`Windows`], a quarter
-/// of the time for both, and then, where bounds are raised in steps ([`Exact::climbs_from`]), other steps than those of the first.
-/// Where travel only decides between networks of one length, and there are no steps,
-/// it looks into travel at once, while the first thread proves the length. Programs and
+/// [`Search`] from nothing, as long as something comes of it, for an eighth of the time
+/// at most, and [`Windows`], until a quarter of it is over; and then, where bounds are
+/// raised in steps ([`Exact::climbs_from`]), other steps than those of the first. Where
+/// travel only decides between networks of one length, and there are no steps, it looks
+/// into travel at once, while the first thread proves the length. Programs and
 /// windows know of the best network and the best bound. With one thread windows
 /// and programs come one after the other.
 ///
@@ -33,7 +34,7 @@ pub struct Race<M> {
     pub search: Search,
 }
 
-/// Part of the time that the search and windows have.
+/// Part of the time that the search and windows have, the search half of it at most.
 const SHARE: f64 = 0.25;
 /// What that is without a deadline.
 const UNLIMITED: Duration = Duration::from_secs(40);

@@ -110,6 +110,14 @@ impl<'p, 'w> Record<'p, 'w> {
         }
     }
 
+    /// Whether it is known that no network costs less than the best without travel.
+    pub(super) fn is_shortest(&self) -> bool {
+        let (Some(pool), Some((_, cost))) = (self.pool, &self.best) else {
+            return false;
+        };
+        pool.is_settled(cost.without_travel(self.problem))
+    }
+
     /// Bounds are of the networks that cost so much without travel from now on; what
     /// was supposed before is forgotten.
     pub(super) fn suppose(&mut self, least: f64) {

@@ -28,8 +28,8 @@ const LARGER: f64 = 1.75;
 /// Windows without success after which larger ones are tried, for each that would
 /// lie side by side with others. Four times as many overlap well.
 const TRIES: usize = 4;
-/// Of those for length alone one in forty finds something, of networks that no
-/// others make better.
+/// Of those for length alone one in forty may find something where all others find
+/// nothing.
 const TRIES_FOR_LENGTH: usize = 16;
 
 /// Windows of one kind.
@@ -81,7 +81,8 @@ impl<'s, 'p, M: MipSolver> Slide<'s, 'p, M> {
     }
 
     /// Slides windows until the time is over, the watch says no, or a window
-    /// holds all edges; those for length alone until they would hold half of them.
+    /// holds all edges; those for length alone until they would hold half of them, or
+    /// it is known that no network is shorter.
     pub(super) fn run(
         &self,
         limits: &Limits,
@@ -99,12 +100,9 @@ impl<'s, 'p, M: MipSolver> Slide<'s, 'p, M> {
             let Some((network, before)) = record.best.clone() else {
                 break;
             };
-            if record
-                .left(limits)
-                .deadline
-                .is_some_and(|left| left.is_zero())
-                || size > most
-            {
+            let is_late = (record.left(limits).deadline).is_some_and(|left| left.is_zero());
+            let is_done = self.goal == Goal::Shorter && record.is_shortest();
+            if is_late || is_done || size > most {
                 break;
             }
             let free = window(record.problem, centre, size, &self.open);
@@ -216,8 +214,9 @@ mod tests {
     use super::*;
     use crate::design::Problem;
     use crate::mip::{Microlp, MipOutcome, MipWatch};
+    use crate::solve::pool::Pool;
     use crate::solve::window::tests::ladder;
-    use crate::solve::NetworkSolver;
+    use crate::solve::{NetworkSolver, Progress};
 
     /// Keeps whether programs are to be refuted, and whether they had a start.
     struct Asked(Mutex<Vec<(bool, bool)>>);
@@ -264,7 +263,7 @@ mod tests {
     fn windows_for_length_shorten_step_by_step_and_end() {
         let (problem, all) = all_of_a_ladder(0.001);
         let mut lengths = Vec::new();
-        let mut watch = |progress: &crate::solve::Progress<'_>| {
+        let mut watch = |progress: &Progress<'_>| {
             if let (true, Some((_, cost))) = (progress.improved, progress.best) {
                 lengths.push(cost.without_travel(&problem));
             }
@@ -295,6 +294,33 @@ mod tests {
             .expect("solved");
         assert_eq!(found.ended, Ended::Proven);
         assert!((found.cost.objective - 8.028).abs() < 1e-9);
+    }
+
+    #[test]
+    fn nothing_is_asked_once_no_network_is_shorter() {
+        let (problem, _) = all_of_a_ladder(0.001);
+        let pool = Pool::default();
+        let one_side = Network {
+            // Its rungs come first.
+            active: (0..problem.edges()).map(|e| e >= 9 && e % 2 == 1).collect(),
+            ..Network::default()
+        };
+        let asked = Asked(Mutex::default());
+        let windows = windows(&asked);
+        let slide = || {
+            let mut watch = |_: &Progress<'_>| true;
+            let mut record =
+                Record::begin(&problem, Some(&one_side), &mut watch, Some(&pool)).expect("whole");
+            let limits = Limits::default();
+            let slide = Slide::new(&windows, Goal::Shorter, &limits, &record).expect("a program");
+            assert_eq!(slide.run(&limits, &mut record), Ok(Ended::Deadline));
+            std::mem::take(&mut *asked.0.lock().expect("whole")).len()
+        };
+        assert!(slide() > 0);
+        pool.settle(7.0);
+        assert!(slide() > 0);
+        pool.settle(8.0);
+        assert_eq!(slide(), 0);
     }
 
     #[test]
