@@ -168,7 +168,7 @@ impl<M: MipSolver + Sync> Beside<'_, M> {
                 let is_due = is_new() && self.spent() >= share;
                 !self.is_over() && !is_due
             };
-            self.windows(&mut first, &mut until_due)?;
+            self.windows(&mut first, done as u64, &mut until_due)?;
             // Windows are over by themselves where one holds all.
             while !self.is_over() && !is_new() {
                 thread::sleep(PACE);
@@ -204,9 +204,11 @@ impl<M: MipSolver + Sync> Beside<'_, M> {
         Ok(found.first_feasible)
     }
 
+    /// From the best network; other windows come first with another seed.
     fn windows(
         &self,
         first: &mut Option<Duration>,
+        seed: u64,
         until: &mut Watch<'_>,
     ) -> Result<(), DesignError> {
         let spent = self.spent();
@@ -214,7 +216,7 @@ impl<M: MipSolver + Sync> Beside<'_, M> {
         let found = self.race.windows.solve_in(
             self.problem,
             best.as_ref(),
-            &self.left(),
+            &self.left_with(seed),
             until,
             Some(self.pool),
         )?;
@@ -228,10 +230,6 @@ impl<M: MipSolver + Sync> Beside<'_, M> {
 
     fn spent(&self) -> Duration {
         self.began.elapsed()
-    }
-
-    fn left(&self) -> Limits {
-        self.left_with(0)
     }
 
     /// The limits, with what is left of the time and another seed.

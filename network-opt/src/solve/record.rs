@@ -179,6 +179,13 @@ impl<'p, 'w> Record<'p, 'w> {
         }
     }
 
+    /// Whether the time is over.
+    pub(super) fn is_late(&self, limits: &Limits) -> bool {
+        self.left(limits)
+            .deadline
+            .is_some_and(|left| left.is_zero())
+    }
+
     /// The answer.
     pub(super) fn outcome(self, ended: Ended) -> Outcome {
         let bound = match ended {

@@ -22,10 +22,10 @@ use slide::{Goal, Slide};
 /// that is solved to proof, or for [`Windows::time`]. When no window makes the
 /// network better, windows grow, until one holds all edges.
 ///
-/// Where travel only decides between networks of one length, larger windows go
-/// before, in which the network is to be shorter, whatever it travels: that no such
-/// network is there is soon known, and what they find no window does that small
-/// enough for travel is.
+/// Where travel is worth so little that length comes first, larger windows go before,
+/// in which the network has to be shorter, whatever it travels. It is soon known when
+/// there is no such network, and they find what windows that are small enough for
+/// travel miss.
 ///
 /// A local optimum of large windows is often the optimum; there is a proof only
 /// if a window holds all edges. Without a start the first network is that of
@@ -38,7 +38,8 @@ pub struct Windows<M> {
     ///
     /// Default value: [`Formulation::Recommended`].
     pub formulation: Formulation,
-    /// Edges of the first windows that are free.
+    /// Edges of the first windows that are free; of those for length alone 1.75 times
+    /// as many.
     ///
     /// Default value: 90.
     pub size: usize,
@@ -99,7 +100,13 @@ impl<M: MipSolver> Windows<M> {
         }
         let mut ended = Ended::Deadline;
         for goal in goals {
-            ended = Slide::new(self, goal, limits, &record)?.run(limits, &mut record)?;
+            if record.is_late(limits) {
+                break;
+            }
+            let Some(slide) = Slide::new(self, goal, limits, &record)? else {
+                continue;
+            };
+            ended = slide.run(limits, &mut record)?;
             if ended != Ended::Deadline {
                 break;
             }

@@ -90,8 +90,7 @@ impl<M: MipSolver> Exact<M> {
     }
 }
 
-/// Whether travel is worth so little that it only decides between networks of one
-/// length.
+/// Whether travel is worth so little that length comes first.
 pub(in super::super) fn breaks_ties(problem: &Problem) -> bool {
     problem.travel_weight > 0.0 && problem.travel_weight <= problem.length_weight / 100.0
 }

@@ -9,28 +9,51 @@ use super::Windows;
 use crate::design::{Cost, Network};
 use crate::dice::Dice;
 use crate::error::DesignError;
-use crate::formulate::{longest_ways, prepare, step, Cuts, Fate, Formulated, Formulation};
-use crate::mip::{MipReply, MipSolver, MipStatus, Program};
+use crate::formulate::{longest_ways, prepare, Cuts, Fate, Formulated, Formulation};
+use crate::mip::{MipOutcome, MipReply, MipSolver, MipStatus, Program};
 
 /// What windows are asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Goal {
     /// The best there is in a window.
     Cheaper,
-    /// A network that costs less without travel, in length, patterns, routes and
-    /// wishes, or a proof that there is none.
+    /// A network that costs less by a step, or a ten-thousandth, without travel: in
+    /// length, patterns, routes and wishes; or a proof that there is none.
     Shorter,
 }
 
-/// How much larger windows for length alone are than the first of the others.
-const LARGER: f64 = 1.75;
+impl Goal {
+    /// How much larger the first windows are than [`Windows::size`].
+    fn factor(self) -> f64 {
+        match self {
+            Self::Cheaper => 1.0,
+            Self::Shorter => 1.75,
+        }
+    }
 
-/// Windows without success after which larger ones are tried, for each that would
-/// lie side by side with others. Four times as many overlap well.
-const TRIES: usize = 4;
-/// Of those for length alone one in forty may find something where all others find
-/// nothing.
-const TRIES_FOR_LENGTH: usize = 16;
+    /// Windows without success after which larger ones are tried, for each that would
+    /// lie side by side with others. Four times as many overlap well; of those for
+    /// length one in forty may find something where all others find nothing.
+    fn tries(self) -> usize {
+        match self {
+            Self::Cheaper => 4,
+            Self::Shorter => 16,
+        }
+    }
+
+    /// The most edges of a window, of so many in all. Whether a network of half of all
+    /// edges can be shorter takes as long to tell as of all of them.
+    fn most(self, all: usize) -> usize {
+        match self {
+            Self::Cheaper => all.max(1),
+            Self::Shorter => all / 2,
+        }
+    }
+}
+
+/// Networks that were shorter and, with what they travel, no better, after which
+/// there are no more windows for length.
+const REFUSED: usize = 3;
 
 /// Windows of one kind.
 pub(super) struct Slide<'s, 'p, M> {
@@ -41,19 +64,28 @@ pub(super) struct Slide<'s, 'p, M> {
     open: Vec<bool>,
     /// How many are.
     all: usize,
+    /// Of the first windows.
+    size: usize,
     /// Where windows lie.
     centres: Vec<usize>,
 }
 
 impl<'s, 'p, M: MipSolver> Slide<'s, 'p, M> {
-    /// The program of windows.
+    /// The program of windows; none if the first would be too large.
     pub(super) fn new(
         windows: &'s Windows<M>,
         goal: Goal,
         limits: &Limits,
         record: &Record<'p, '_>,
-    ) -> Result<Self, DesignError> {
+    ) -> Result<Option<Self>, DesignError> {
         let problem = record.problem;
+        let open: Vec<bool> = prepare(problem).iter().map(|f| *f == Fate::Open).collect();
+        let all = open.iter().filter(|&&open| open).count();
+        let size = (windows.size as f64 * goal.factor()).ceil() as usize;
+        let size = size.clamp(1, all.max(1));
+        if size > goal.most(all) {
+            return Ok(None);
+        }
         let cost = (record.best.as_ref()).map_or(f64::INFINITY, |(_, cost)| cost.objective);
         let longest = (goal == Goal::Cheaper).then(|| longest_ways(problem, cost));
         let formulation = match (goal, windows.formulation) {
@@ -68,41 +100,36 @@ impl<'s, 'p, M: MipSolver> Slide<'s, 'p, M> {
             balls: true,
             ..Cuts::none()
         };
-        let open: Vec<bool> = prepare(problem).iter().map(|f| *f == Fate::Open).collect();
         let first = Dice::new(limits.seed).below(problem.vertices.max(1));
-        Ok(Self {
+        Ok(Some(Self {
             windows,
             goal,
             formulated: Formulated::with_cuts(problem, formulation, longest, cuts)?,
-            all: open.iter().filter(|&&open| open).count(),
             open,
+            all,
+            size,
             centres: far_apart(problem, first),
-        })
+        }))
     }
 
     /// Slides windows until the time is over, the watch says no, or a window
-    /// holds all edges; those for length alone until they would hold half of them, or
-    /// it is known that no network is shorter.
+    /// holds all edges; those for length alone until they would hold more than half
+    /// of them, shorter networks are no better, or it is known that there are none.
     pub(super) fn run(
         &self,
         limits: &Limits,
         record: &mut Record<'_, '_>,
     ) -> Result<Ended, DesignError> {
-        let (larger, tries, most) = match self.goal {
-            Goal::Cheaper => (1.0, TRIES, self.all),
-            Goal::Shorter => (LARGER, TRIES_FOR_LENGTH, self.all / 2),
-        };
-        let mut size = (self.windows.size as f64 * larger) as usize;
-        size = size.clamp(1, self.all.max(1));
+        let mut size = self.size;
         // Windows since the last improvement, at this size.
         let mut idle = 0;
+        let mut refused = 0;
         for &centre in self.centres.iter().cycle() {
             let Some((network, before)) = record.best.clone() else {
                 break;
             };
-            let is_late = (record.left(limits).deadline).is_some_and(|left| left.is_zero());
-            let is_done = self.goal == Goal::Shorter && record.is_shortest();
-            if is_late || is_done || size > most {
+            let is_done = self.goal == Goal::Shorter && (refused > REFUSED || record.is_shortest());
+            if record.is_late(limits) || is_done || size > self.goal.most(self.all) {
                 break;
             }
             let free = window(record.problem, centre, size, &self.open);
@@ -117,15 +144,16 @@ impl<'s, 'p, M: MipSolver> Slide<'s, 'p, M> {
                 gap: 0.0,
                 ..left
             };
-            self.look(&program, &network, &limits, record)?;
+            let found = self.look(&program, &network, &limits, record)?;
             if record.cancelled {
                 return Ok(Ended::Cancelled);
             }
             let best = record.best.as_ref();
             let is_better = best.is_some_and(|(_, cost)| cost.objective < before.objective - 1e-9);
+            refused += usize::from(found.solution.is_some() && !is_better);
             idle = if is_better { 0 } else { idle + 1 };
-            if idle > tries * self.all.div_ceil(size) {
-                size = (size + size / 2).min(self.all);
+            if idle > self.goal.tries() * self.all.div_ceil(size) {
+                size = (size + (size / 2).max(1)).min(self.all);
                 idle = 0;
             }
         }
@@ -142,8 +170,7 @@ impl<'s, 'p, M: MipSolver> Slide<'s, 'p, M> {
         let mut program = self.formulated.window(network, free);
         if self.goal == Goal::Shorter {
             let length = cost.without_travel(record.problem);
-            let step = step(record.problem, Formulation::Flow);
-            program.refute(length - step.max(1e-4 * length.abs()));
+            program.refute(length - program.step().max(1e-4 * length.abs()));
         }
         program
     }
@@ -161,28 +188,29 @@ impl<'s, 'p, M: MipSolver> Slide<'s, 'p, M> {
             deadline: left.deadline.or(Some(Duration::MAX)),
             ..left
         };
-        let (status, bound) = self.look(program, network, &limits, record)?;
+        let found = self.look(program, network, &limits, record)?;
         // A flow does not price travel, so it proves nothing of it.
         let prices = self.formulated.formulation() != Formulation::Flow
             || record.problem.travel_weight == 0.0;
         if record.cancelled {
             return Ok(Ended::Cancelled);
         }
-        if prices && status == MipStatus::Optimal {
-            record.raise(program.rounded(bound));
+        if prices && found.status == MipStatus::Optimal {
+            record.raise(program.rounded(found.bound));
             return Ok(Ended::Proven);
         }
         Ok(Ended::Deadline)
     }
 
-    /// Solves the program of a window. What is found is offered to the record.
+    /// Solves the program of a window. What is found is offered to the record, and the
+    /// watch is asked once at least.
     fn look(
         &self,
         program: &Program,
         network: &Network,
         limits: &Limits,
         record: &mut Record<'_, '_>,
-    ) -> Result<(MipStatus, f64), DesignError> {
+    ) -> Result<MipOutcome, DesignError> {
         let formulated = &self.formulated;
         let start = (self.goal == Goal::Cheaper).then(|| formulated.solution(network));
         let solver = &self.windows.solver;
@@ -197,13 +225,12 @@ impl<'s, 'p, M: MipSolver> Slide<'s, 'p, M> {
                 go_on => go_on.into(),
             }
         })?;
-        record.receive();
-        if let Some(values) = &found.solution {
-            if record.offer(formulated.network(values)) {
-                record.report(true);
-            }
-        }
-        Ok((found.status, found.bound))
+        let received = record.receive();
+        let offered = (found.solution.as_ref())
+            .is_some_and(|values| record.offer(formulated.network(values)));
+        // Solvers that are soon through ask no watch.
+        record.report(received || offered);
+        Ok(found)
     }
 }
 
@@ -212,11 +239,11 @@ mod tests {
     use std::sync::Mutex;
 
     use super::*;
-    use crate::design::Problem;
-    use crate::mip::{Microlp, MipOutcome, MipWatch};
+    use crate::design::{EdgeState, Problem};
+    use crate::mip::{Microlp, MipWatch, Row};
     use crate::solve::pool::Pool;
     use crate::solve::window::tests::ladder;
-    use crate::solve::{NetworkSolver, Progress};
+    use crate::solve::{NetworkSolver, Progress, Watch};
 
     /// Keeps whether programs are to be refuted, and whether they had a start.
     struct Asked(Mutex<Vec<(bool, bool)>>);
@@ -276,7 +303,9 @@ mod tests {
         let (windows, best) = {
             let mut record = Record::begin(&problem, Some(&all), &mut watch, None).expect("whole");
             let windows = windows(Microlp);
-            let slide = Slide::new(&windows, Goal::Shorter, &limits, &record).expect("a program");
+            let slide = Slide::new(&windows, Goal::Shorter, &limits, &record)
+                .expect("a program")
+                .expect("small");
             let ended = slide.run(&limits, &mut record).expect("no failure");
             assert_eq!(ended, Ended::Deadline, "half of the edges prove nothing");
             let (_, cost) = record.best.expect("still there");
@@ -286,7 +315,7 @@ mod tests {
         assert!(best < 25.0 && lengths.last() == Some(&best), "{lengths:?}");
         let steps = [25.0].into_iter().chain(lengths.iter().copied());
         let falls: Vec<f64> = steps.zip(&lengths).map(|(a, b)| a - b).collect();
-        assert!(falls.iter().all(|&fall| fall >= 1.0), "{lengths:?}");
+        assert!(falls.iter().all(|&fall| fall > 1.0 - 1e-9), "{lengths:?}");
         // All of them, travel included: one side of the ladder, and each of its edges
         // but the first travels over those before it.
         let found = windows
@@ -312,7 +341,9 @@ mod tests {
             let mut record =
                 Record::begin(&problem, Some(&one_side), &mut watch, Some(&pool)).expect("whole");
             let limits = Limits::default();
-            let slide = Slide::new(&windows, Goal::Shorter, &limits, &record).expect("a program");
+            let slide = Slide::new(&windows, Goal::Shorter, &limits, &record)
+                .expect("a program")
+                .expect("small");
             assert_eq!(slide.run(&limits, &mut record), Ok(Ended::Deadline));
             std::mem::take(&mut *asked.0.lock().expect("whole")).len()
         };
@@ -321,6 +352,132 @@ mod tests {
         assert!(slide() > 0);
         pool.settle(8.0);
         assert_eq!(slide(), 0);
+    }
+
+    /// Answers what it is told to, and keeps the last row of each program.
+    struct Answers<'a> {
+        solution: Option<&'a [f64]>,
+        rows: Mutex<Vec<Row>>,
+    }
+
+    impl MipSolver for &Answers<'_> {
+        fn name(&self) -> &'static str {
+            "answers"
+        }
+
+        fn solve(
+            &self,
+            program: &Program,
+            _: Option<&[f64]>,
+            _: &Limits,
+            _: &mut MipWatch<'_>,
+        ) -> Result<MipOutcome, DesignError> {
+            let last = program.rows().last().expect("a level");
+            self.rows.lock().expect("whole").push(last.clone());
+            let status = match self.solution {
+                Some(_) => MipStatus::Optimal,
+                None => MipStatus::Infeasible,
+            };
+            Ok(MipOutcome {
+                status,
+                solution: self.solution.map(<[f64]>::to_vec),
+                objective: f64::INFINITY,
+                bound: f64::INFINITY,
+            })
+        }
+    }
+
+    /// How windows for length end from a network, and the last rows of their programs.
+    fn answered(
+        problem: &Problem,
+        start: &Network,
+        solution: Option<&[f64]>,
+        watch: &mut Watch<'_>,
+    ) -> (Ended, Vec<Row>) {
+        let answers = Answers {
+            solution,
+            rows: Mutex::default(),
+        };
+        let windows = windows(&answers);
+        let limits = Limits {
+            deadline: None,
+            ..Limits::default()
+        };
+        let mut record = Record::begin(problem, Some(start), watch, None).expect("whole");
+        let slide = Slide::new(&windows, Goal::Shorter, &limits, &record)
+            .expect("a program")
+            .expect("small");
+        let ended = slide.run(&limits, &mut record).expect("no failure");
+        (ended, answers.rows.into_inner().expect("whole"))
+    }
+
+    #[test]
+    fn windows_for_length_end_where_shorter_is_no_better() {
+        // The same network again and again is no better than itself.
+        let (problem, all) = all_of_a_ladder(0.001);
+        let formulated = Formulated::with_cuts(&problem, Formulation::Flow, None, Cuts::none())
+            .expect("a program");
+        let solution = formulated.solution(&all);
+        let (ended, rows) = answered(&problem, &all, Some(&solution), &mut |_| true);
+        assert_eq!((ended, rows.len()), (Ended::Deadline, REFUSED + 1));
+    }
+
+    #[test]
+    fn the_watch_is_asked_after_each_window() {
+        let (problem, all) = all_of_a_ladder(0.001);
+        let mut left = 3;
+        let mut watch = |_: &Progress<'_>| {
+            left -= 1;
+            left > 0
+        };
+        let (ended, rows) = answered(&problem, &all, None, &mut watch);
+        assert_eq!((ended, rows.len()), (Ended::Cancelled, 3));
+    }
+
+    #[test]
+    fn without_steps_shorter_is_a_ten_thousandth() {
+        let (problem, all) = all_of_a_ladder(0.001);
+        let lengths: Vec<f64> = (0..problem.edges())
+            .map(|e| (e as f64 + 2.0).sqrt())
+            .collect();
+        let sum: f64 = lengths.iter().sum();
+        for (lengths, level) in [
+            (vec![1.0; problem.edges()], 24.0),
+            (lengths, sum * (1.0 - 1e-4)),
+        ] {
+            let problem = Problem {
+                lengths,
+                ..problem.clone()
+            };
+            let (_, rows) = answered(&problem, &all, None, &mut |_| true);
+            // A level lets pass a hundredth of a step, or a millionth.
+            let over = rows[0].high - level;
+            assert!(0.0 < over && over < 0.011, "{} for {level}", rows[0].high);
+        }
+    }
+
+    #[test]
+    fn windows_grow_from_any_size_and_close_what_has_nothing_open() {
+        let (problem, all) = all_of_a_ladder(0.001);
+        let solved = |problem: &Problem, size: usize| {
+            let windows = Windows {
+                size,
+                ..Windows::new(Microlp)
+            };
+            let limits = Limits {
+                deadline: None,
+                ..Limits::default()
+            };
+            let found = windows.solve(problem, Some(&all), &limits, &mut |_| true);
+            let found = found.expect("solved");
+            (found.ended, found.cost.without_travel(problem))
+        };
+        assert_eq!(solved(&problem, 0), (Ended::Proven, 8.0));
+        let given = Problem {
+            states: vec![EdgeState::Required; problem.edges()],
+            ..problem.clone()
+        };
+        assert_eq!(solved(&given, 4), (Ended::Proven, 25.0));
     }
 
     #[test]
