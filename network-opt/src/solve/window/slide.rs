@@ -41,8 +41,8 @@ impl Goal {
         }
     }
 
-    /// The most edges of a window, of so many in all. Whether a network of half of all
-    /// edges can be shorter takes as long to tell as of all of them.
+    /// The most edges of a window, of so many in all. Of half of 544 edges it takes HiGHS
+    /// four seconds and more to tell whether a network can be shorter.
     fn most(self, all: usize) -> usize {
         match self {
             Self::Cheaper => all.max(1),
@@ -192,14 +192,14 @@ impl<'s, 'p, M: MipSolver> Slide<'s, 'p, M> {
         // A flow does not price travel, so it proves nothing of it.
         let prices = self.formulated.formulation() != Formulation::Flow
             || record.problem.travel_weight == 0.0;
-        if record.cancelled {
-            return Ok(Ended::Cancelled);
-        }
         if prices && found.status == MipStatus::Optimal {
             record.raise(program.rounded(found.bound));
             return Ok(Ended::Proven);
         }
-        Ok(Ended::Deadline)
+        Ok(match record.cancelled {
+            true => Ended::Cancelled,
+            false => Ended::Deadline,
+        })
     }
 
     /// Solves the program of a window. What is found is offered to the record, and the
