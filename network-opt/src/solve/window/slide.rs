@@ -245,12 +245,29 @@ mod tests {
     use crate::solve::window::tests::ladder;
     use crate::solve::{NetworkSolver, Progress, Watch};
 
-    /// Keeps whether programs are to be refuted, and whether they had a start.
-    struct Asked(Mutex<Vec<(bool, bool)>>);
+    /// Keeps what it is asked, and answers what Microlp does, or what it is told to.
+    #[derive(Default)]
+    struct Spy<'a> {
+        told: Option<Option<&'a [f64]>>,
+        asked: Mutex<Vec<Asked>>,
+    }
 
-    impl MipSolver for &Asked {
+    /// Whether a program is to be refuted and has a start, and its last row.
+    struct Asked {
+        refuted: bool,
+        started: bool,
+        last: Option<Row>,
+    }
+
+    impl Spy<'_> {
+        fn asked(&self) -> Vec<Asked> {
+            std::mem::take(&mut *self.asked.lock().expect("whole"))
+        }
+    }
+
+    impl MipSolver for &Spy<'_> {
         fn name(&self) -> &'static str {
-            "asked"
+            "spy"
         }
 
         fn solve(
@@ -260,9 +277,24 @@ mod tests {
             limits: &Limits,
             watch: &mut MipWatch<'_>,
         ) -> Result<MipOutcome, DesignError> {
-            let asked = (program.is_refuted(), start.is_some());
-            self.0.lock().expect("whole").push(asked);
-            Microlp.solve(program, start, limits, watch)
+            self.asked.lock().expect("whole").push(Asked {
+                refuted: program.is_refuted(),
+                started: start.is_some(),
+                last: program.rows().last().cloned(),
+            });
+            let Some(solution) = self.told else {
+                return Microlp.solve(program, start, limits, watch);
+            };
+            let status = match solution {
+                Some(_) => MipStatus::Optimal,
+                None => MipStatus::Infeasible,
+            };
+            Ok(MipOutcome {
+                status,
+                solution: solution.map(<[f64]>::to_vec),
+                objective: f64::INFINITY,
+                bound: f64::INFINITY,
+            })
         }
     }
 
@@ -334,8 +366,8 @@ mod tests {
             active: (0..problem.edges()).map(|e| e >= 9 && e % 2 == 1).collect(),
             ..Network::default()
         };
-        let asked = Asked(Mutex::default());
-        let windows = windows(&asked);
+        let spy = Spy::default();
+        let windows = windows(&spy);
         let slide = || {
             let mut watch = |_: &Progress<'_>| true;
             let mut record =
@@ -345,7 +377,7 @@ mod tests {
                 .expect("a program")
                 .expect("small");
             assert_eq!(slide.run(&limits, &mut record), Ok(Ended::Deadline));
-            std::mem::take(&mut *asked.0.lock().expect("whole")).len()
+            spy.asked().len()
         };
         assert!(slide() > 0);
         pool.settle(7.0);
@@ -354,51 +386,18 @@ mod tests {
         assert_eq!(slide(), 0);
     }
 
-    /// Answers what it is told to, and keeps the last row of each program.
-    struct Answers<'a> {
-        solution: Option<&'a [f64]>,
-        rows: Mutex<Vec<Row>>,
-    }
-
-    impl MipSolver for &Answers<'_> {
-        fn name(&self) -> &'static str {
-            "answers"
-        }
-
-        fn solve(
-            &self,
-            program: &Program,
-            _: Option<&[f64]>,
-            _: &Limits,
-            _: &mut MipWatch<'_>,
-        ) -> Result<MipOutcome, DesignError> {
-            let last = program.rows().last().expect("a level");
-            self.rows.lock().expect("whole").push(last.clone());
-            let status = match self.solution {
-                Some(_) => MipStatus::Optimal,
-                None => MipStatus::Infeasible,
-            };
-            Ok(MipOutcome {
-                status,
-                solution: self.solution.map(<[f64]>::to_vec),
-                objective: f64::INFINITY,
-                bound: f64::INFINITY,
-            })
-        }
-    }
-
-    /// How windows for length end from a network, and the last rows of their programs.
+    /// How windows for length end from a network, and what they ask.
     fn answered(
         problem: &Problem,
         start: &Network,
         solution: Option<&[f64]>,
         watch: &mut Watch<'_>,
-    ) -> (Ended, Vec<Row>) {
-        let answers = Answers {
-            solution,
-            rows: Mutex::default(),
+    ) -> (Ended, Vec<Asked>) {
+        let spy = Spy {
+            told: Some(solution),
+            ..Spy::default()
         };
-        let windows = windows(&answers);
+        let windows = windows(&spy);
         let limits = Limits {
             deadline: None,
             ..Limits::default()
@@ -408,7 +407,7 @@ mod tests {
             .expect("a program")
             .expect("small");
         let ended = slide.run(&limits, &mut record).expect("no failure");
-        (ended, answers.rows.into_inner().expect("whole"))
+        (ended, spy.asked())
     }
 
     #[test]
@@ -418,8 +417,8 @@ mod tests {
         let formulated = Formulated::with_cuts(&problem, Formulation::Flow, None, Cuts::none())
             .expect("a program");
         let solution = formulated.solution(&all);
-        let (ended, rows) = answered(&problem, &all, Some(&solution), &mut |_| true);
-        assert_eq!((ended, rows.len()), (Ended::Deadline, REFUSED + 1));
+        let (ended, asked) = answered(&problem, &all, Some(&solution), &mut |_| true);
+        assert_eq!((ended, asked.len()), (Ended::Deadline, REFUSED + 1));
     }
 
     #[test]
@@ -430,8 +429,8 @@ mod tests {
             left -= 1;
             left > 0
         };
-        let (ended, rows) = answered(&problem, &all, None, &mut watch);
-        assert_eq!((ended, rows.len()), (Ended::Cancelled, 3));
+        let (ended, asked) = answered(&problem, &all, None, &mut watch);
+        assert_eq!((ended, asked.len()), (Ended::Cancelled, 3));
     }
 
     #[test]
@@ -449,10 +448,11 @@ mod tests {
                 lengths,
                 ..problem.clone()
             };
-            let (_, rows) = answered(&problem, &all, None, &mut |_| true);
+            let (_, asked) = answered(&problem, &all, None, &mut |_| true);
+            let high = asked[0].last.as_ref().expect("a level").high;
             // A level lets pass a hundredth of a step, or a millionth.
-            let over = rows[0].high - level;
-            assert!(0.0 < over && over < 0.011, "{} for {level}", rows[0].high);
+            let over = high - level;
+            assert!(0.0 < over && over < 0.011, "{high} for {level}");
         }
     }
 
@@ -484,15 +484,18 @@ mod tests {
     fn only_where_travel_breaks_ties_windows_are_for_length_first() {
         let asked_with = |weight: f64, formulation: Formulation| {
             let (problem, all) = all_of_a_ladder(weight);
-            let asked = Asked(Mutex::default());
+            let spy = Spy::default();
             let windows = Windows {
                 formulation,
-                ..windows(&asked)
+                ..windows(&spy)
             };
             windows
                 .solve(&problem, Some(&all), &Limits::default(), &mut |_| true)
                 .expect("solved");
-            asked.0.into_inner().expect("whole")
+            let asked = spy.asked().into_iter();
+            asked
+                .map(|ask| (ask.refuted, ask.started))
+                .collect::<Vec<_>>()
         };
         let asked = asked_with(0.001, Formulation::Recommended);
         let first = asked.iter().filter(|&&ask| ask == (true, false)).count();
